@@ -32,7 +32,7 @@ MOST = 1e15
 """Greatest magnitude of a float: its square and cube are numbers, too."""
 _DEEPEST = 4
 _CHECKED: set[type] = set()
-"""Classes whose instances were checked when they were made."""
+"""Classes with instances checked at creation."""
 _TRUSTED = {"from_dict", "restore"}
 """Methods that get what their own class made, such as a state with infinite costs."""
 _ARRAY = re.compile(r"\b(ArrayLike|Floats\d*|Bools|Indices|Ints\d*)\b")
@@ -243,7 +243,7 @@ def _number_fields(kind: type) -> tuple[str, ...]:
     """Return the attributes of a class that may not hold infinite numbers.
 
     Those are numbers of poses and of dataclasses without arrays. With arrays it is a measurement,
-    such as a scan, whose ranges are infinite where nothing is near.
+    such as a scan, with infinite ranges where nothing is near.
     """
     if isinstance(getattr(kind, "numbers", None), property):
         return ("numbers",)

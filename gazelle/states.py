@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 
 class Restorable(Protocol):
-    """Something whose state can be taken and put back."""
+    """Object with a state that can be saved and restored."""
 
     def state(self) -> dict[str, NDArray[np.generic]]:
         """Return all mutable state."""

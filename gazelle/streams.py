@@ -4,7 +4,7 @@ A draw is addressed by a seed, a stream (which sensor, which task), a world and 
 World 7's numbers are the same whether it runs alone or among a thousand others, and the
 whole batch is drawn without a loop: the generator is a hash of the address, SplitMix64
 (Steele, Lea and Flood, "Fast Splittable Pseudorandom Number Generators", OOPSLA 2014),
-whose output passes BigCrush.
+which passes BigCrush.
 """
 
 from __future__ import annotations

@@ -24,7 +24,7 @@ class ConversionContext:
     """Context of a conversion: frame, world and time of a graph.
 
     Attributes:
-        frame: Frame of the port, for kinds that carry none.
+        frame: Frame of the port, for kinds without one.
         world: Which world of the batch.
         stamp: Turns a simulated time [ns] into the graph's.
         prefix: Put before the names of frames, as tf does.

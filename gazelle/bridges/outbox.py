@@ -26,7 +26,7 @@ class Outbox:
         self._sent_at = 0.0
 
     def add(self, data: bytes) -> None:
-        """Send a message, now or soon."""
+        """Send a message, now or shortly after."""
         self._waiting.append(data)
         if len(self._waiting) >= _MOST or time.monotonic() - self._sent_at >= _PATIENCE_S:
             self.flush()

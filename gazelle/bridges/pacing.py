@@ -1,4 +1,4 @@
-"""Keep a simulation going at the pace its physics properties ask for, while others steer it."""
+"""Pacing of a simulation by its physics properties, while others steer it."""
 
 from __future__ import annotations
 

@@ -85,7 +85,7 @@ def serve_ros(
 ) -> RosDoor:
     """Serve a simulation on a ROS 1 graph as Gazebo's ROS packages do.
 
-    The caller continues stepping it, or lets ``RosDoor.run`` do so.
+    The caller continues stepping it, or calls ``RosDoor.run``.
 
     Args:
         simulation: Runs.
@@ -149,7 +149,7 @@ def join_graph(
         MasterUnreachableError: There is no master, and none can be started at that address.
     """
     uri = master_uri or net.default_master_uri()
-    clock = WallClock()  # who makes the time does not wait to hear of it on /clock
+    clock = WallClock()  # the source of time does not wait for /clock
     try:
         return Node(name, master_uri=uri, host=host, clock=clock), None
     except MasterUnreachableError:

@@ -83,7 +83,7 @@ def control_files(
     kind: Kind = "trajectory",
     rate: float = 50.0,
 ) -> ControlFiles:
-    """Return files that bring a robot up under ros_control, here and in Gazebo.
+    """Return files that start a robot under ros_control, here and in Gazebo.
 
     Each moving joint that follows no other gets a transmission, if it has none. Gains are a first
     guess from the inertia that each joint moves in its initial pose: a critically damped swing

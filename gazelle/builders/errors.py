@@ -9,7 +9,7 @@ from gazelle.errors import Error
 
 
 class BuildError(Error):
-    """A world or robot cannot be built as asked, and why."""
+    """A world or robot cannot be built as requested."""
 
 
 def positive(value: float, what: str) -> float:

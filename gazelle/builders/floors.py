@@ -117,7 +117,7 @@ def lamp(
     brightness: float = 0.5,
     cast_shadows: bool = False,
 ) -> Light:
-    """Return a lamp at a point [m], whose light ends at ``reach`` [m].
+    """Return a lamp at a point [m]; its light ends at ``reach`` [m].
 
     Raises:
         BuildError: The reach is not positive, or the brightness is out of range.

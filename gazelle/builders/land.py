@@ -86,7 +86,7 @@ class Terrain:
         Args:
             name: Of the model.
             pose: Of the grid's middle, in the world.
-            above: Cells whose corners are all at or below this height [m] are left out, to
+            above: Cells with all corners at or below this height [m] are left out, to
                 let the ground plane show there.
             color: Of all facets, or what gives that of a facet from its height [m].
             thickness: Of the slabs, downwards [m].

@@ -121,7 +121,7 @@ def random_plants(
 def _box(
     name: str, place: Place, height: float, shape: float, paint: Paint, density: float | None
 ) -> Model:
-    # Any rectangle whose corners lie on the circle.
+    # Any rectangle with its corners on the circle.
     angle = math.radians(25.0 + 40.0 * shape)
     length, width = 2.0 * place.radius * math.cos(angle), 2.0 * place.radius * math.sin(angle)
     mass = density * length * width * height if density else None

@@ -76,7 +76,7 @@ def add_link_properties(
         damping: Fraction of velocity lost.
 
     Raises:
-        BuildError: There is no such link, or nothing is asked for.
+        BuildError: There is no such link, or nothing is requested.
     """
     values: dict[str, Value | None] = {
         "mu1": mu1, "mu2": mu2, "fdir1": fdir1, "kp": kp, "kd": kd, "maxVel": max_vel,
@@ -130,7 +130,7 @@ def add_joint_properties(
         spring_reference: Where the spring rests [m or rad].
 
     Raises:
-        BuildError: There is no such joint, or nothing is asked for.
+        BuildError: There is no such joint, or nothing is requested.
     """
     values: dict[str, Value | None] = {
         "provideFeedback": provide_feedback, "implicitSpringDamper": implicit_spring_damper,
@@ -158,7 +158,7 @@ def add_joint_properties(
 
 @checked(BuildError)
 def keep_fixed_joint(text: str, joint: str) -> str:
-    """Return URDF text whose fixed joint keeps its two links apart, instead of lumping them.
+    """Return URDF text with a fixed joint that keeps its two links apart, instead of lumping them.
 
     Raises:
         BuildError: There is no such joint.
@@ -230,7 +230,7 @@ def add_transmissions(robot: RobotT, *, interface: str = _EFFORT, reduction: flo
     """Return a simple transmission for each moving joint that has none and follows no other.
 
     Raises:
-        BuildError: The text is xacro, whose macros may make joints that cannot be seen.
+        BuildError: The text is xacro, with macros that may make joints that cannot be seen.
     """
     for joint in _moving(robot):
         robot = add_transmission(robot, joint, interface=interface, reduction=reduction)

@@ -1,4 +1,4 @@
-"""Elements put into the text of a URDF or xacro file, whose other text stays as it is."""
+"""Insertion of elements into the text of a URDF or xacro file; other text is kept."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def is_xacro(text: str) -> bool:
 
 
 def check_name(text: str, tag: str, name: str) -> None:
-    """Check that a link or joint is there; in xacro, whose macros make some, anything may be.
+    """Check that a link or joint is there; in xacro, where macros make some, anything may be.
 
     Raises:
         FormatError: The text is not well-formed XML.

@@ -180,7 +180,7 @@ class WorldBuilder:
         """Add walls of a floor plan, and the things at the letters of the legend.
 
         Args:
-            drawing: See ``builders.plan_walls``, whose options are taken too.
+            drawing: See ``builders.plan_walls``; its options work here too.
             legend: What to make at a letter, such as ``{"d": desk}``.
             cell: Side of a cell [m].
             **options: For the walls.

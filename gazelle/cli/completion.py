@@ -17,7 +17,7 @@ from gazelle_ros import tool_names
 from gazelle_ros.cli.parsing import Parser
 
 _GRAPH = ("node", "param", "service", "topic")
-"""Commands whose sub-command ``list`` gives the names that their others take."""
+"""Commands with a sub-command ``list`` of the names that the others take."""
 _ZSH = """autoload -Uz compinit bashcompinit
 whence compdef > /dev/null || compinit
 bashcompinit
@@ -110,7 +110,7 @@ def _words() -> dict[str, list[str]]:
 
 
 def _sub_parsers(parser: argparse.ArgumentParser) -> dict[str, argparse.ArgumentParser]:
-    for action in parser._actions:  # noqa: SLF001  # argparse has no public way to ask
+    for action in parser._actions:  # noqa: SLF001  # argparse has no public access
         if isinstance(action, argparse._SubParsersAction):  # noqa: SLF001  # the same
             return dict(action.choices)
     return {}

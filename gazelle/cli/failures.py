@@ -30,7 +30,7 @@ def save_failures(found: Evaluation, file: Path) -> None:
     """Write the episodes that failed.
 
     Raises:
-        TaskError: A picture is asked for, and the task reports no places.
+        TaskError: A picture is requested, and the task reports no places.
         OSError: The file cannot be written.
     """
     if file.suffix.lower() == ".png":

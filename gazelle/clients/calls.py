@@ -51,7 +51,7 @@ class Caller:
         return self._call_until(name, kind, fields, 0)[0]
 
     def call_again(self, name: str, kind: str, /, **fields: Any) -> tuple[Any, bool]:
-        """Call a service; also returns whether an earlier try may have been carried out.
+        """Call a service; also returns whether an earlier try may have taken effect.
 
         Raises:
             ClientError: As ``call``.
@@ -81,7 +81,7 @@ class Caller:
                 time.sleep(_PAUSE_S)
 
     def demand(self, name: str, kind: str, /, **fields: Any) -> Any:
-        """Call a service whose answer has ``success``, and insist on it.
+        """Call a service with ``success`` in its answer, and require it.
 
         Raises:
             ClientError: As ``call``, and when it answers that it did not succeed.

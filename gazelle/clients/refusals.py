@@ -22,7 +22,7 @@ def why_not_loaded(place: str, kind: object, types: Callable[[], Sequence[str]])
     Args:
         place: Full name of its parameters.
         kind: Its parameter ``type``; None if there is none.
-        types: Asked for those that there are.
+        types: Returns the available ones.
     """
     if kind is None:
         return f"there is no parameter {place}/type; load its YAML file first"

@@ -1,4 +1,4 @@
-"""Content of files whose format says more of a world than descriptions have terms for."""
+"""Content of files with details of a world that descriptions have no terms for."""
 
 from __future__ import annotations
 

@@ -9,7 +9,7 @@ from typing import Any
 
 
 class HoldsMappings:
-    """A dataclass whose mappings are read-only, and are so again after a pickle or a copy."""
+    """A dataclass with read-only mappings, also after a pickle or a copy."""
 
     __slots__ = ()
 

@@ -19,8 +19,8 @@ class Material:
         diffuse: Colour in direct light; None when the file says none.
         specular: Colour of highlights; None when the file says none.
         emissive: Colour it glows with; None when the file says none.
-        script: Name of a material script such as ``Gazebo/Grey``, whose colours the
-            readers have already put into the fields above where they know it.
+        script: Name of a material script such as ``Gazebo/Grey``; readers
+            put the colours of a known script into the fields above.
         script_uris: Where the file says the script is; empty for Gazebo's own.
         script_places: The files and folders behind ``script_uris`` that are there.
         texture: Image file of the diffuse texture, or None.

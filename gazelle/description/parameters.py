@@ -1,6 +1,6 @@
 """A plugin's XML, kept whole and read by type.
 
-Plugins carry tags that only they know. They are kept as a tree of elements that is
+Plugins have tags that only they know. They are kept as a tree of elements that is
 independent of any XML library, and read with ``parameters.get("wheelSeparation", 0.34)``,
 where the type of the default decides how the text is read.
 """

@@ -45,7 +45,7 @@ class Physics:
     Attributes:
         name: Of the profile.
         default: Whether it is the one in use when there are several.
-        type: Engine the file asks for; Gazelle's engines all read the same terms.
+        type: Engine of the file; Gazelle's engines all read the same terms.
         max_step_size: Physics step [s].
         kinematic_step: Physics step of engines that move bodies by their velocities alone [s];
             None for ``max_step_size``.

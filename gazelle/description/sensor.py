@@ -138,7 +138,7 @@ class Sensor:
         update_rate: Measurements a second [Hz]; 0 means every step.
         always_on: Measure also without subscribers.
         visualize: Show its rays or frustum in a viewer.
-        topic: Topic the file asks for, or empty.
+        topic: Topic of the file, or empty.
         lidar: Set for the ray family.
         imu: Set for an IMU.
         cameras: Set for the camera family: one, or several of a multicamera.

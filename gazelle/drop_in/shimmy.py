@@ -55,7 +55,7 @@ class GymV21CompatibilityV0(gymnasium.Env[Any, Any]):
         return observation, float(reward), bool(done) and not truncated, truncated, info
 
     def render(self) -> Any:
-        """Show it as ``render_mode`` asks."""
+        """Render it by ``render_mode``."""
         return None if self.render_mode is None else self.gym_env.render(mode=self.render_mode)
 
     def close(self) -> None:

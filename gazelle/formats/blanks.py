@@ -1,4 +1,4 @@
-"""Files whose text has characters copied from web pages and word processors."""
+"""Detection of characters copied from web pages and word processors in files."""
 
 from __future__ import annotations
 

@@ -51,7 +51,7 @@ def load_mesh(mesh: Mesh) -> MeshData:
 
     Raises:
         FormatError: The file was not found, cannot be read, or holds no triangle or not
-            the submesh asked for. It names the place in the description.
+            the requested submesh. It names the place in the description.
     """
     return _placed(_joined(_parts_of(mesh)), mesh)
 

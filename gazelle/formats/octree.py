@@ -1,4 +1,4 @@
-"""Octrees of OctoMap, as ``octomap_msgs/Octomap`` carries them: which space is occupied."""
+"""Octrees of OctoMap, as in ``octomap_msgs/Octomap``: occupied space."""
 
 from __future__ import annotations
 

@@ -33,7 +33,7 @@ class Index:
 
     Attributes:
         models: Folders of models by name.
-        package_folders: Folders of packages, whose names are read when they are asked for.
+        package_folders: Folders of packages; their names are read on demand.
     """
 
     models: dict[str, Path] = field(default_factory=dict)

@@ -49,7 +49,7 @@ def solid_of(shape: Geometry) -> UnitSolid | None:
 
 
 def inertial_of(solid: UnitSolid) -> Inertial:
-    """Return mass and inertia of a body whose volume is already its mass [kg]."""
+    """Return mass and inertia of a body with its mass [kg] in place of the volume."""
     x, y, z = solid.center.tolist()
     return Inertial(solid.volume, Pose(x, y, z), Inertia.from_matrix(solid.inertia))
 

@@ -1,7 +1,7 @@
 """Typed values out of XML elements, with errors that name the place.
 
 Every function raises ``FormatError`` with file, line and element when the text is not of
-the type asked for.
+the requested type.
 """
 
 from __future__ import annotations

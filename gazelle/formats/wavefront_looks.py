@@ -1,6 +1,6 @@
-"""Materials and pictures of OBJ files, for those who draw them: MTL files beside the OBJ file.
+"""Materials and pictures of OBJ files, for rendering: MTL files beside the OBJ file.
 
-Who needs the shape alone does not read them (`wavefront`).
+Shapes alone do not need them (`wavefront`).
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Xacro files, through the ``xacro`` package, with no ROS.
 
 Each element of the result knows the file and line it was written in, also when it came
-out of a macro: elements carry their place through xacro's DOM.
+out of a macro: elements keep their place through xacro's DOM.
 """
 
 from __future__ import annotations
@@ -145,7 +145,7 @@ def _run(name: str, data: bytes, reading: Reading) -> Parameters:
 
 
 class _DomBuilder(expatbuilder.ExpatBuilderNS):
-    """Builds a DOM whose elements know their places."""
+    """Builder of a DOM with places of its elements."""
 
     def __init__(self, file: str) -> None:
         super().__init__()
@@ -161,7 +161,7 @@ class _DomBuilder(expatbuilder.ExpatBuilderNS):
 
 
 def _parse(data: bytes, name: str, reading: Reading) -> Any:
-    """Parse a DOM whose elements know their lines; entities are rejected as elsewhere."""
+    """Parse a DOM with lines of its elements; entities are rejected as elsewhere."""
     _, text = xml.parsed(data, name=name, report=reading.misread)
     return _DomBuilder(name).parseString(text)
 
@@ -222,7 +222,7 @@ def _patched(reading: Reading) -> Iterator[io.StringIO]:
 
 
 def _once(load: Callable[[str], Any]) -> Callable[[str], Any]:
-    """Return a function that loads a YAML file once, however many macros ask for it."""
+    """Return a function that loads a YAML file once, however many macros need it."""
     loaded: dict[str, Any] = {}
 
     def load_once(filename: str) -> Any:

@@ -135,7 +135,7 @@ def _declaration_first(data: bytes) -> bytes:
 
 @dataclass(slots=True)
 class _Open:
-    """An element whose end has not been reached."""
+    """An unclosed element."""
 
     tag: str
     attributes: dict[str, str]

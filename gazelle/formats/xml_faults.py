@@ -1,4 +1,4 @@
-"""Explanations of text that is not well-formed XML, for those who write it by hand.
+"""Explanations of text that is not well-formed XML, for files written by hand.
 
 Expat names what it met and where; this says which element is open there, since which line, and
 what to write.

@@ -38,21 +38,21 @@ SLOW = 0.02
 _LOG = logging.getLogger(__name__)
 _LARGE = 100_000
 _PATIENCE = 2.0
-"""Triangles, and seconds spent on meshes in this process, after which a log line asks to wait."""
+"""Triangles, and seconds spent on meshes in this process, after which a log line announces a wait."""
 _DENT = 0.01
 _DEEPEST_DENT = 0.01
 """Depth of dents that are filled: a share of the size, a length [m]."""
 _ROUNDING = 1e-5
 """Tolerance of convexity where all edges must be convex, as a share of the size."""
 _MOST_CORNERS = 100_000
-"""Vertices up to which it is asked whether dents are small."""
+"""Vertices up to which small dents are looked for."""
 _FIRST_LOOK = 256
 """Places that are looked at first."""
 _LOOKS_ALONG = 60.0
-"""Places on a hull along its size, from which it is asked how far the surface lies below."""
+"""Sample places on a hull along its size, to measure the depth of the surface below."""
 _MAX_PAIRS = 2_000_000
 _LOOKS = spread_directions(48)
-"""Directions whose outermost corners are looked at first."""
+"""Directions of the outermost corners that are checked first."""
 
 _MEMORY: dict[str, ConvexPieces] = {}
 _SPENT = {"seconds": 0.0}
@@ -185,7 +185,7 @@ def _volumes(surface: WeldedSurface, number: NDArray[np.intp]) -> Floats:
 
 
 def _convex_parts(surface: WeldedSurface, number: NDArray[np.intp]) -> NDArray[np.bool_]:
-    """Return a mask of the parts whose edges all bend the same way.
+    """Return a mask of the parts with all edges bent the same way.
 
     A closed surface that is, is convex (Van Heijenoort, "On locally convex manifolds",
     Communications on Pure and Applied Mathematics 5, 1952).

@@ -12,7 +12,7 @@ from gazelle.geometry.ray_hits import first_hits
 from gazelle.geometry.surface import WeldedSurface, clean
 
 FEWEST = 4000
-"""Triangles from which on a mesh is asked whether it is ground; fewer collide as they are."""
+"""Least triangles of a mesh that is checked for ground; fewer collide as they are."""
 
 _MOST_NODES = 250_000
 _EDGE = 1e-5

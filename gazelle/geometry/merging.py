@@ -55,7 +55,7 @@ class PieceMerger:
         return list(self._clouds.values())
 
     def overlapping(self) -> list[tuple[int, int]]:
-        """Return the pairs of pieces whose boxes overlap and that may still be merged."""
+        """Return the pairs of pieces with overlapping boxes that may still be merged."""
         numbers = list(self._clouds)
         low, high = (np.array([self._boxes[number][i] for number in numbers]) for i in (0, 1))
         pairs = []

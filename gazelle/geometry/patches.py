@@ -118,7 +118,7 @@ def depths_of(surface: WeldedSurface, rims: Rims, closed: NDArray[np.bool_], ski
     """Return the thickness of the solid behind each polygon [m], shape (k,).
 
     Args:
-        surface: Whose polygons they are.
+        surface: Surface of the polygons.
         rims: The polygons.
         closed: Whether each triangle belongs to the surface of a closed body, shape (m,).
         skin: Thickness of what is open behind, at most [m].

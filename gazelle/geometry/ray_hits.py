@@ -21,7 +21,7 @@ def first_hits(
     """Return distance along rays to the first triangle, and whether they come from behind it.
 
     Args:
-        surface: Whose triangles are met from both sides.
+        surface: Surface with triangles met from both sides.
         origins: [m], shape (n, 3); what is nearer than a hundred-thousandth of the size is
             not met.
         directions: Unit vectors, shape (n, 3).

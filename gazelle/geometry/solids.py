@@ -37,7 +37,7 @@ class UnitSolid:
         return finite and self.volume > 0.0
 
     def placed(self, frame: Floats) -> UnitSolid:
-        """Return the same body in the frame above its own, whose pose there has shape (4, 4)."""
+        """Return the same body in the frame above its own, by its pose there, shape (4, 4)."""
         turn = frame[:3, :3]
         center: Floats = turn @ self.center + frame[:3, 3]
         inertia: Floats = turn @ self.inertia @ turn.T
@@ -84,7 +84,7 @@ def cylinder(r: float, h: float) -> UnitSolid:
 
 
 def capsule(r: float, h: float) -> UnitSolid:
-    """Return a cylinder and two half balls, whose centres lie 3/8 r beyond its ends."""
+    """Return a cylinder and two half balls with centres 3/8 r beyond its ends."""
     tube, balls = math.pi * r * r * h, 4.0 / 3.0 * math.pi * r**3
     across = tube * (r * r / 4.0 + h * h / 12.0)
     across += balls * (0.4 * r * r + h * h / 4.0 + 3.0 / 8.0 * h * r)
@@ -93,7 +93,7 @@ def capsule(r: float, h: float) -> UnitSolid:
 
 
 def cone(r: float, h: float) -> UnitSolid:
-    """Return a cone of a radius and a length [m], whose middle is at the origin."""
+    """Return a cone of a radius and a length [m], with its middle at the origin."""
     across = 3.0 / 80.0 * (4.0 * r * r + h * h)
     return _even(math.pi * r * r * h / 3.0, (across, across, 0.3 * r * r), z=-h / 4.0)
 

@@ -19,7 +19,7 @@ _SLIVER = 2.0
 
 @dataclass(frozen=True)
 class WeldedSurface:
-    """Triangles whose equal corners are one vertex.
+    """Triangles with shared vertices.
 
     Attributes:
         vertices: [m], shape (n, 3).

@@ -34,7 +34,7 @@ class JointGraph(Generic[J]):
     Attributes:
         holders: The joint that holds each link, by the name of the link.
         below: The joints that hold others to a link, by the name of that link.
-        rest: Joints whose child link another joint holds already.
+        rest: Joints with a child link that another joint holds already.
     """
 
     def __init__(self, joints: Iterable[J]) -> None:

@@ -32,7 +32,7 @@ class JointModelGroup:
         lower: Limits [m or rad], shape (n,).
         upper: Likewise.
         links: That its joints hold, tips of chains among them, from the root outwards.
-        tips: Ends of its chains: what is brought to poses. One for an arm.
+        tips: Ends of its chains: the links that are moved to poses. One for an arm.
         base: Where its one chain begins; empty where there is none or several.
         effectors: End effectors that are mounted on it.
         states: Named postures, values by name of variable.

@@ -56,7 +56,7 @@ class JointNodes:
         return joint is not None and joint.type in self._moving and bool(joint.axes)
 
     def add(self, body: TreeLink) -> None:
-        """Add a link whose parent is there already, and the axes of its joint."""
+        """Add a link below an existing parent, and the axes of its joint."""
         node, offset = self.frames[body.parent]
         pose = offset * body.pose
         if body.joint is not None and self.moves(body.joint):
@@ -78,7 +78,7 @@ class JointNodes:
         return JointNode(body.joint_name, parent, origin, axis.xyz, slides, mimic)
 
     def sources(self) -> list[tuple[int, float, float]]:
-        """Return the node whose variable moves each node, with a factor and an offset."""
+        """Return the node with the variable that moves each node, with a factor and an offset."""
         places = {node.name: index for index, node in enumerate(self.nodes)}
         return [self._source(index, places) for index in range(len(self.nodes))]
 

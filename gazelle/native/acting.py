@@ -1,6 +1,6 @@
 """When an engine updates a system, and the columns of a loop's table, for compiled modules, too."""
 
-# Between two steps; in the middle of a step, whose forces it changes; at the end of the step before,
+# Between two steps; in the middle of a step, to change its forces; at the end of the step before,
 # for the next one; and in the middle of a step, with joints read and acted on.
 BETWEEN, IN_STEP, AHEAD, OF_JOINTS = 0, 1, 2, 3
 

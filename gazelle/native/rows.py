@@ -2,7 +2,7 @@
 
 Compiled modules take what ``rows.pxd`` says, which are addresses: a typed memory view takes four
 lines of a processor's cache, an address an eighth of one. This is the same for Python that runs
-sources. ``first_of_run`` is for both. Who keeps an address keeps its array, too.
+sources. ``first_of_run`` is for both. Keep the array as long as its address.
 """
 
 from __future__ import annotations

@@ -56,7 +56,7 @@ class _Worker:
                 return
             try:
                 self._value = self._work()
-            except BaseException as error:  # noqa: BLE001  who waits for the result gets it
+            except BaseException as error:  # noqa: BLE001  the waiting thread gets it
                 self._error = error
             self._done.release()
 

@@ -1,4 +1,4 @@
-"""A PID controller whose integral is limited, for many loops at once."""
+"""A PID controller with a limited integral, for many loops at once."""
 
 from __future__ import annotations
 

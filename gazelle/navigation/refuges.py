@@ -47,7 +47,7 @@ class RobotDisc:
 
 
 class RefugeMap:
-    """Ways and places on a map, of which only what stands fast is asked.
+    """Ways and places on a map, by static obstacles only.
 
     Args:
         grid: The map; what is unknown is closed.

@@ -1,7 +1,7 @@
 """Robots that wait for one another: the one of least priority makes way.
 
 Each robot plans by itself, and takes the others for obstacles. Where two meet in a corridor each finds
-its way blocked by the other. So robots that stand are looked at together: who stands on the way that
+its way blocked by the other. So robots that stand are looked at together: robots on the way that
 another one would go, were it alone. Of those that hang together the first by priority continues, and the
 others wait; those on its way first go to the nearest place beside it, backwards if they have to.
 """
@@ -134,7 +134,7 @@ class _Encounter:
         along: How far along it each point is, shape (n,) [m].
         waiting: The others.
         begun: When the others began to make way [s].
-        involved: Names of all whose matter it still is.
+        involved: Names of all robots still involved.
         under_way: Whether the leader has set off.
     """
 
@@ -180,7 +180,7 @@ class RightOfWay:
         if sum(self._stands(time, each) for each in free) > 1:
             self._meet(time, free, ordered)
 
-    # Who stands ---------------------------------------------------------------------------
+    # Standing robots ---------------------------------------------------------------------------
 
     def _watch(self, time: float, traveller: Traveller) -> None:
         body = traveller.body
@@ -209,7 +209,7 @@ class RightOfWay:
             found = self._maps[id(grid)] = grid, RefugeMap(grid)
         return found[1]
 
-    # Who waits for whom -------------------------------------------------------------------
+    # Waiting relations -------------------------------------------------------------------
 
     def _meet(self, time: float, free: Sequence[Traveller], everyone: Sequence[Traveller]) -> None:
         """Resume the first robot of a group that blocks itself."""
@@ -247,7 +247,7 @@ class RightOfWay:
     ) -> bool:
         """Start an encounter: others make way for one, if there is room."""
         reached = {each.name: _blocks(each, leader, way) for each in members}
-        # The nearest chooses first: who stands behind it can go farther back.
+        # The nearest chooses first: one behind it can go farther back.
         in_way = sorted(
             (each for each in members if reached[each.name] is not None),
             key=lambda each: reached[each.name] or 0,

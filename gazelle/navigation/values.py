@@ -1,4 +1,4 @@
-"""Values that navigation's ports carry."""
+"""Values of navigation's ports."""
 
 from __future__ import annotations
 

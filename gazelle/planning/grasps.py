@@ -20,7 +20,7 @@ class GripperTranslation:
         direction: Of any length but zero.
         desired: How far, if nothing is in the way [m].
         minimum: How far at least [m].
-        frame: A link whose axes the direction is along, as it is turned where the way begins; those of
+        frame: Link of the direction's axes, as it is turned where the way begins; those of
             the robot's frame if empty.
     """
 
@@ -110,7 +110,7 @@ class PlaceLocation:
 @checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class ParallelHand:
-    """Two fingers that close along the y axis of a link whose x axis points ahead of them.
+    """Two fingers that close along the y axis of a link; its x axis points ahead.
 
     Attributes:
         link: Between the tips of the fingers; fixed to the group's tip.

@@ -1,4 +1,4 @@
-"""The gripper of a robot in a running simulation: open it, close it, and hear what became of that."""
+"""The gripper of a robot in a running simulation: open it, close it, and get the outcome."""
 
 from __future__ import annotations
 

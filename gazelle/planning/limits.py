@@ -1,4 +1,4 @@
-"""Limits of what a plan may be asked for."""
+"""Limits of planning requests."""
 
 from __future__ import annotations
 

@@ -78,7 +78,7 @@ class MotionPlan:
     """A trajectory of a group.
 
     Attributes:
-        group: Whose.
+        group: Group of the plan.
         start: Of all variables, where it begins, shape (variables,).
         points: Corners of the path, shape (m, n).
         trajectory: When the group's joints are where.
@@ -110,7 +110,7 @@ class MotionPlanner:
 
     Args:
         scene: What must not be touched.
-        group: Whose joints move.
+        group: Group of the joints.
         options: How to plan.
 
     Raises:

@@ -1,7 +1,7 @@
 """A bidirectional planner that needs no other package, also on constraints.
 
 Method: Kuffner and LaValle, "RRT-Connect: an efficient approach to single-query path planning",
-2000. With path constraints each step is brought back onto them, as in Berenson, Srinivasa and
+2000. With path constraints each step is projected onto them, as in Berenson, Srinivasa and
 Kuffner, "Task space regions", 2011.
 """
 
@@ -80,7 +80,7 @@ def rrt_connect(
         validity: Says what is valid.
         random: Draws positions.
         until: When to give up, on ``time.monotonic``'s clock [s].
-        project: Brings positions onto the path constraints; None where there are none.
+        project: Projects positions onto the path constraints; None where there are none.
         edge: Longest edge of a tree; a fifth of the extent if zero.
 
     Returns:
@@ -126,7 +126,7 @@ def _grow(
     there = here + way * min(1.0, longest / length)
     if project is not None:
         projected = project(there)
-        # What is brought back to where it came from leads nowhere.
+        # A projection back to the start leads nowhere.
         if projected is None or np.linalg.norm(projected - here) < 0.05 * longest:
             return -1
         if np.linalg.norm(projected - here) > 2.0 * longest:

@@ -24,7 +24,7 @@ class StateValidity:
 
     Args:
         scene: What must not be touched.
-        group: Whose positions are asked for.
+        group: Group of the positions.
         state: Of all variables, shape (variables,).
         constraints: That hold in every state.
         segment: Distance of the states that are checked on a way, as a fraction of the extent.

@@ -26,7 +26,7 @@ def lighting_of(world: World, *, gamma: float = 1.0) -> Lighting:
     """Return the lighting of a world.
 
     Args:
-        world: Whose lights and sky.
+        world: World of the lights and sky.
         gamma: Brightness b becomes b to the power 1 / gamma; above 1 it lifts the shadows.
     """
     back = SKY_HORIZON if world.scene.sky else world.scene.background[:3]

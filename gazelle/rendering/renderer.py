@@ -44,7 +44,7 @@ class Frames:
 
 @checked(EngineError)
 class Renderer:
-    """Draws the visuals of a world's copies, whose links can be anywhere.
+    """Draws the visuals of a world's copies, with links anywhere.
 
     A picture is the same, bit for bit, at any number of threads, worlds and other cameras.
 
@@ -54,7 +54,7 @@ class Renderer:
         threads: That draw at once; all processors if None.
         gamma: Brightness b becomes b to the power 1 / gamma.
         shadows: Whether things throw shadows in the first directional light that has them.
-        seen: What is drawn in place of the world's visuals, whose lamps and sky stay.
+        seen: Visuals in place of the world's; its lamps and sky stay.
 
     Attributes:
         shadows: Likewise; it can be set.

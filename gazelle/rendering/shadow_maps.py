@@ -1,7 +1,7 @@
 """Depth pictures from a directional lamp, for shadows.
 
 A point is in shadow if the lamp's picture shows something nearer to the lamp there (L. Williams,
-"Casting curved shadows on curved surfaces", 1978); four neighbouring pixels are asked, so that edges
+"Casting curved shadows on curved surfaces", 1978); four neighbouring pixels are sampled, so that edges
 are soft (W. T. Reeves et al., "Rendering antialiased shadows with depth maps", 1987). The lamp is put so
 far away that its rays are all but parallel.
 """

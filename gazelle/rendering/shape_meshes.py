@@ -48,7 +48,7 @@ class ShapePiece:
 
 
 def pieces_of(shape: Geometry) -> tuple[ShapePiece, ...]:
-    """Return a shape by looks; one piece unless it is a mesh whose file has several.
+    """Return a shape by looks; one piece unless it is a mesh file of several.
 
     Raises:
         FormatError: Its file cannot be read.
@@ -70,7 +70,7 @@ def pieces_of(shape: Geometry) -> tuple[ShapePiece, ...]:
 
 
 def triangles_of(shape: Geometry) -> TriangleMesh:
-    """Return triangles with normals; empty for a shape whose file is missing.
+    """Return triangles with normals; empty for a shape with a missing file.
 
     Raises:
         FormatError: Its file cannot be read.

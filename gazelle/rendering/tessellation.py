@@ -46,7 +46,7 @@ def creased(
 ) -> TriangleMesh:
     """Return a mesh with normals: the mean of the faces about a vertex that are nearly level.
 
-    Each corner of a triangle takes the mean over the triangles at its vertex whose normals are
+    Each corner of a triangle takes the mean over the triangles at its vertex with normals
     within the crease of its own, weighted by their areas. Corners that agree share a vertex.
 
     Args:

@@ -1,6 +1,6 @@
 """Stage: its files, and its worlds that run as fleets of robots in the plane.
 
-Modules are imported when their names are used: who reads a file needs nothing that runs it.
+Modules are imported when their names are used: a reader of files needs nothing that runs them.
 """
 
 from __future__ import annotations

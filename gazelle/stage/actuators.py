@@ -26,7 +26,7 @@ class Actuator:
 
     Args:
         simulation: Runs.
-        robot: That carries it.
+        robot: Its robot.
         rider: What it moves.
 
     Attributes:

@@ -1,4 +1,4 @@
-"""Fiducial finders and blob finders: what Stage's robots recognise, asked for one by one."""
+"""Fiducial finders and blob finders: what Stage's robots recognise, by queries one by one."""
 
 from __future__ import annotations
 

@@ -235,7 +235,7 @@ class StageFleet(Senses):
     def bumped(self) -> NDArray[np.bool_]:
         """True where a move was not made since this was last cleared; writable, as ``stalled``.
 
-        It is kept from when it is first asked for.
+        It is kept from the first access.
         """
         self.refresh()
         return self._motion.watch()
@@ -272,7 +272,7 @@ class StageFleet(Senses):
         """Return the present ranges of all sensors of a scanner [m], shape (nworld, sensors, samples).
 
         ``Ranger.places`` says which scanner and which row are a sensor's. Each is measured
-        once a step, however often it is asked for.
+        once a step, however often it is requested.
 
         Args:
             scanner: Its index.

@@ -33,7 +33,7 @@ Command = Literal["open", "close", "up", "down"]
 COMMANDS: tuple[Command, ...] = ("open", "close", "up", "down")
 _STEP = 0.05  # share of their way by which paddles and lift go in an update
 _INSETS = (0.75, 0.25)  # of the beams from the tips, as shares of the paddles' length
-_NOWHERE = -1e6  # height of what is carried: neither seen nor bumped into [m]
+_NOWHERE = -1e6  # height of a held thing: neither seen nor bumped into [m]
 _CLEAR = 1e-3  # room that is left between a gripper and what it releases [m]
 _NONE = -1
 
@@ -46,7 +46,7 @@ class GripperState:
         paddles: From 0, open, to 1, closed.
         lift: From 0, down, to 1, up.
         beams: Whether the inner and the outer beam between the paddles are broken.
-        carried: Name of what it carries, or None.
+        carried: Name of the held thing, or None.
     """
 
     paddles: float
@@ -61,14 +61,14 @@ class Gripper:
 
     Args:
         simulation: Runs.
-        robot: That carries it.
+        robot: Its robot.
         model: Of it.
         pose: On the robot.
 
     Attributes:
         paddles: From 0, open, to 1, closed, shape (nworld,).
         lift: From 0, down, to 1, up, shape (nworld,).
-        carried: Index of the thing it carries, or -1, shape (nworld,).
+        carried: Index of the held thing, or -1, shape (nworld,).
     """
 
     def __init__(

@@ -19,7 +19,7 @@ _WIDTHS = (0.03, 0.03, 0.05)
 class WheelOdometry:
     """Adds up what the wheels say, wrong by the constant share ``odom_error``.
 
-    As in Stage a robot whose file has no ``odom_error`` draws its share at the start, and wheels
+    As in Stage a robot with no ``odom_error`` draws its share at the start, and wheels
     of a robot that is stalled slip.
 
     Args:

@@ -67,7 +67,7 @@ class StageRobot:
         index: Its row in all arrays.
         name: Its name in the world.
         model: What the file says.
-        rangers: Those mounted on it directly or on what it carries, in file order; those on
+        rangers: Those mounted on it directly or indirectly, in file order; those on
             actuators last.
         riders: Bodies of its actuators.
     """

@@ -45,8 +45,8 @@ class StageScenery:
 
     Attributes:
         seen: What is drawn.
-        bodies: Of each link but the first the body that carries it, shape (nlink - 1,).
-        casings: Links of models that carry cameras, by body and by their number on it, depth first:
+        bodies: Of each link but the first its parent body, shape (nlink - 1,).
+        casings: Links of models with cameras, by body and by their number on it, depth first:
             a camera does not see its own.
     """
 

@@ -1,6 +1,6 @@
 """Conversion of ROS messages to controllers' commands.
 
-Unlike a plugin's inputs these may carry a time at which something is to begin: a reader gets the
+Unlike a plugin's inputs these may have a time at which something is to begin: a reader gets the
 graph, which knows what simulated time a stamp is.
 """
 

@@ -15,7 +15,7 @@ def find_model(node: Node, space: str) -> Model | None:
     """Return the robot of the parameter ``robot_description``: a namespace's, else the root's.
 
     Args:
-        node: Asks.
+        node: The client.
         space: Without a slash at its end.
 
     Returns:

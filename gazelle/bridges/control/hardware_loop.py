@@ -18,7 +18,7 @@ from gazelle_ros.errors import NodeClosedError, TimeMovedBackwardsError
 
 
 class LiveGraph:
-    """A node for a robot whose time is the node's.
+    """A node for a robot with the node's clock.
 
     Args:
         node: On the graph.

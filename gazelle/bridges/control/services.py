@@ -79,7 +79,7 @@ class ManagerServices:
         name = request.name
 
         def load() -> None:
-            # Asked here, not where the robot steps: the master may be far away.
+            # Queried here, not where the robot steps: the master may be far away.
             found = self._node.get_param(f"{self._space}/{name}", None) if name else None
             if self._manager.model is None:
                 self._manager.model = find_model(self._node, self._space)

@@ -37,7 +37,7 @@ _MOVES = {
 class GazeboDoor(Closeable):
     """ROS interface of a simulation, as gazebo_ros_pkgs has it.
 
-    Every service is carried out between two steps, also while the simulation is paused, and
+    Every service runs between two steps, also while the simulation is paused, and
     answers when what it says is true. After a reset, a spawn or steps of a paused world
     everything with subscribers is published once before the answer.
 

@@ -168,7 +168,7 @@ class ModelServices:
     def _place(self, robot: Robot, state: State) -> str:
         """Set the pose of a model; returns a text if a joint holds it elsewhere.
 
-        Gazebo calls that done, and its joint brings the model back.
+        Gazebo calls that done, and its joint moves the model back.
         """
         engine, worlds, missed = self._simulation.engine, self._entities.worlds, ""
         try:

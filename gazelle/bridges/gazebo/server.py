@@ -22,7 +22,7 @@ from gazelle_ros.builtin.arguments import parse_arguments
 # Options that change nothing here, with a value and without.
 _PASSED_OVER = ("-g", "--gui-plugin", "-o", "--profile")
 _IGNORED = ("--verbose", "--lockstep", "--minimal_comms", "-q", "--quiet", "--pose")
-# Those that ask for what is not here: one line says so.
+# Options without an implementation here: each gives one warning.
 _NO_RECORDING = "the simulator writes no log: 'gazelle bag record -a' records topics"
 _NOT_HERE = {
     **dict.fromkeys(("-r", "--record", "--record_resources"), _NO_RECORDING),
@@ -60,7 +60,7 @@ def main(arguments: Sequence[str]) -> int:
 
 
 def _simulation(options: argparse.Namespace, namespace: str) -> Simulation:
-    """Return the world that runs; what is asked for in vain is said."""
+    """Return the world that runs; warn of options without effect."""
     for notice in dict.fromkeys(options.notices):
         warnings.warn(notice, SimulationWarning, stacklevel=2)
     return Simulation(find_world(options.world), seed=options.seed, namespace=namespace.rstrip("/"))

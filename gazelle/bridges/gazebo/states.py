@@ -92,7 +92,7 @@ class StatesPublisher(BasePlugin):
         """True if there are subscribers."""
         return self._models.has_listener or self._links.has_listener
 
-    def on_update(self, time: float) -> None:  # noqa: ARG002  messages carry no time
+    def on_update(self, time: float) -> None:  # noqa: ARG002  messages have no time
         """Publish."""
         self.publish()
 

@@ -35,7 +35,7 @@ class Capabilities:
     What ``~capabilities`` adds beyond those that are known is warned of.
 
     Args:
-        node: Whose parameters they are: names with blanks between.
+        node: Node of the parameters: names with blanks between.
     """
 
     def __init__(self, node: Node) -> None:

@@ -58,7 +58,7 @@ class FakeMotion:
         Args:
             kind: ``interpolate``, ``via points`` (each when it is due) or ``last point`` (at once).
             trajectory: With positions.
-            stop: Asked all the time whether to end before.
+            stop: Polled; True ends the motion early.
 
         Raises:
             NoPlanError: It was stopped.

@@ -26,7 +26,7 @@ class GraspReader:
 
     Args:
         context: The robot and its frames.
-        group: Whose tip they are of: directions along links that it moves turn with them.
+        group: Group of the tip: directions along links that it moves turn with them.
         state: Where the robot is, shape (variables,).
     """
 

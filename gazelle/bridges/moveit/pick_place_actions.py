@@ -178,7 +178,7 @@ class PickupAction(
     name, kind = "pickup", "Pickup"
 
     def group_of(self, goal: moveit_msgs.msg.PickupGoal) -> tuple[JointModelGroup, str]:
-        """Return the named group; else the one that carries the end effector."""
+        """Return the named group; else the one with the end effector."""
         name = goal.group_name
         if not name and goal.end_effector:
             robot = self.context.robot

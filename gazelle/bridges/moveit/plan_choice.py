@@ -37,7 +37,7 @@ def shortest_plan(
 
     Args:
         scene: What must not be touched.
-        group: Whose joints move.
+        group: Group of the joints that move.
         goal: Where to.
         start: Of all variables, shape (variables,).
         held: Constraints all along.

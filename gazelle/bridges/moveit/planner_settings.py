@@ -19,7 +19,7 @@ class PlannerSettings:
     """``planner_configs`` and what groups say of them, of the node's own parameters.
 
     Args:
-        node: Below whose name they are, or below ``planning_pipelines/ompl`` there.
+        node: Node of the settings, or below ``planning_pipelines/ompl`` there.
     """
 
     def __init__(self, node: Node) -> None:

@@ -107,7 +107,7 @@ class PlanningContext:
             raise NoPlanError(error.message, PlanOutcome.INVALID_GROUP_NAME, error.hint) from None
 
     def constraints(self, message: moveit_msgs.msg.Constraints, state: Floats) -> ConstraintSet:
-        """Convert a ``moveit_msgs/Constraints``, whose links and joints must exist.
+        """Convert a ``moveit_msgs/Constraints``; its links and joints must exist.
 
         Raises:
             NoPlanError: One cannot be.
@@ -142,7 +142,7 @@ class PlanningContext:
             response.error_code.val = int(PlanOutcome.SUCCESS)
             act(response)
         except NoPlanError as error:
-            LOG.error("%s: %s", what, error)  # noqa: TRY400  what users ask for needs no traceback
+            LOG.error("%s: %s", what, error)  # noqa: TRY400  a bad request needs no traceback
             response.error_code.val = int(error.outcome)
         except Error as error:
             LOG.error("%s: %s", what, error)  # noqa: TRY400

@@ -127,7 +127,7 @@ class AmclNode:
             self._changed.notify_all()
 
     def _do(self, change: Callable[[Localizer], None]) -> None:
-        """Change the filter now, or (only the last change) as soon as there is a map."""
+        """Change the filter now, or (only the last change) when there is a map."""
         with self._lock:
             if self._localizer is None:
                 self._pending = change

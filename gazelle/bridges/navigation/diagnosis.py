@@ -1,4 +1,4 @@
-"""One warning that says what navigation waits for, and who should send it."""
+"""One warning of the inputs that navigation waits for, and of their usual senders."""
 
 from __future__ import annotations
 

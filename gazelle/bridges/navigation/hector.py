@@ -92,7 +92,7 @@ class HectorNode(MappingNode):
         return changed
 
     def _say(self, stamp: Time, at: int, odom: Pose2 | None) -> None:
-        """Publish the pose, and the transforms that were asked for."""
+        """Publish the pose, and the requested transforms."""
         pose = self._stamped()
         pose.header.frame_id, pose.header.stamp = self._whole, stamp
         x, y, heading = self.slam.pose

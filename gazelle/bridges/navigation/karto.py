@@ -1,4 +1,4 @@
-"""The node ``slam_karto``: a map of scans whose poses fit (http://wiki.ros.org/slam_karto)."""
+"""The node ``slam_karto``: a map of scans with optimised poses (http://wiki.ros.org/slam_karto)."""
 
 from __future__ import annotations
 

@@ -101,7 +101,7 @@ class Env(Closeable):
 
 
 class GoalEnv(Env):
-    """An environment whose observations are dictionaries with what is reached and what is wanted."""
+    """An environment with dictionaries of the achieved and the desired goal as observations."""
 
     def reset(self) -> Any:
         """Check the space; subclasses begin the episode then.

@@ -96,7 +96,7 @@ class GroupTarget:
         return drawn
 
     def set_pose(self, pose: Pose, link: str, start: Floats, *, approximate: bool) -> bool:
-        """Set positions that bring a link to a pose; whether there are any.
+        """Set positions that put a link at a pose; whether there are any.
 
         Args:
             pose: In the frame that is planned in.

@@ -17,7 +17,7 @@ class RequestSettings:
     """Settings that go into each request; at first those of the parameters of the group.
 
     Args:
-        node: Asks for the parameters.
+        node: Reads the parameters.
         description: Parameter of the robot; theirs begin with it.
         namespace: Of ``move_group``.
         group: Name of the group.

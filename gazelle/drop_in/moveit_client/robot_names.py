@@ -11,7 +11,7 @@ from gazelle.errors import PlanningError
 from gazelle.kinematics.joint_graph import JointGraph
 
 NO_VIRTUAL_JOINT = "ASSUMED_FIXED_ROOT_JOINT"
-"""MoveIt's name of the root joint of a robot whose SRDF has none."""
+"""MoveIt's name of the root joint of a robot without one in its SRDF."""
 _ONE_VARIABLE = ("revolute", "continuous", "prismatic")
 
 

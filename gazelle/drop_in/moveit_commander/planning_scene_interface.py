@@ -1,4 +1,4 @@
-"""``PlanningSceneInterface``: puts things into the planning scene, and asks what is there."""
+"""``PlanningSceneInterface``: adds objects to the planning scene, and queries it."""
 
 from __future__ import annotations
 
@@ -188,7 +188,7 @@ class PlanningSceneInterface:
     # -- what is there -------------------------------------------------------------------
 
     def get_known_object_names(self, with_type: bool = False) -> list[str]:  # noqa: FBT001, FBT002  # MoveIt's interface
-        """Return names of the things, or of those alone whose type is known."""
+        """Return names of the things, or only of those with a known type."""
         things = self._scene(NAMES).world.collision_objects
         return [each.id for each in things if each.type.key or not with_type]
 
@@ -198,7 +198,7 @@ class PlanningSceneInterface:
         maxx: float, maxy: float, maxz: float,
         with_type: bool = False,  # noqa: FBT001, FBT002
     ) -> list[str]:  # fmt: skip
-        """Return names of the things all of whose shapes have their origins within a box [m]."""
+        """Return names of the objects with the origins of all shapes within a box [m]."""
         low, high = (minx, miny, minz), (maxx, maxy, maxz)
         found = []
         for each in self._scene(GEOMETRY).world.collision_objects:

@@ -271,7 +271,7 @@ class RobotCommander:
 
         Args:
             state: A ``RobotState``, or positions by joint; now if None. A list is one of links, and a
-                name that of a group, whose positions by joint may follow.
+                name that of a group; positions by joint may follow.
             links: Names of links; all if None.
 
         Raises:

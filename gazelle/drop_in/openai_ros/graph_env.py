@@ -18,7 +18,7 @@ REWARD_TOPIC = "/openai/reward"
 
 
 class GraphEnv(Env):
-    """An environment whose robot is on a ROS 1 graph.
+    """An environment with a robot on a ROS 1 graph.
 
     Args:
         gazebo: The simulator.

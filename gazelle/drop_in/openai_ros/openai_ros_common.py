@@ -44,11 +44,11 @@ class ROSLauncher:
     Args:
         rospackage_name: The package.
         launch_file_name: The file in it.
-        ros_ws_abspath: A workspace whose ``src`` is searched for the package too, if it is there.
+        ros_ws_abspath: A workspace; its ``src`` is searched for the package too, if it is there.
 
     Raises:
         MissingPackageError: There is no such package; nothing is downloaded.
-        LaunchError: The file cannot be carried out.
+        LaunchError: The file cannot run.
     """
 
     def __init__(
@@ -62,7 +62,7 @@ class ROSLauncher:
             folder = self.DownloadRepo(rospackage_name, ros_ws_abspath)
         rospy.loginfo(f"starting {launch_file_name} of {folder}")
         file = folder / "launch" / launch_file_name
-        # What it starts ends before this node does, whose master it needs for that.
+        # What it starts ends before this node does, because it needs the node's master.
         rospy.on_shutdown(background.stop_all)
         if file.is_file():
             background.processes().start_launch(file)

@@ -13,7 +13,7 @@ from gazelle.drop_in.openai_ros.simulated_time import SimulatedTime
 
 
 class RobotGazeboEnv(GraphEnv):
-    """An environment whose robot is on a ROS 1 graph.
+    """An environment with a robot on a ROS 1 graph.
 
     A step unpauses, applies the action, pauses, and observes. After every episode
     ``openai_ros/RLExperimentInfo`` with its number and reward is published on ``/openai/reward``.

@@ -12,7 +12,7 @@ from gazelle.drop_in.openai_ros.graph_env import GraphEnv
 
 
 class RobotGazeboEnv(GraphEnv, GoalEnv):
-    """An environment with goals whose robot is on a ROS 1 graph.
+    """An environment with goals and a robot on a ROS 1 graph.
 
     Observations are dictionaries with ``observation``, ``achieved_goal`` and ``desired_goal``. Unlike in
     `robot_gazebo_env`, time continues between steps, every step's reward is published, a reset

@@ -53,7 +53,7 @@ def links_of(world: World) -> Iterator[LinkPlace]:
 
 
 def moving_links_of(world: World) -> Iterator[LinkPlace]:
-    """Return all links whose mass matters: not those of immovable or scripted models."""
+    """Return all links with a mass that matters: not those of immovable or scripted models."""
     return (
         place
         for place in links_of(world)

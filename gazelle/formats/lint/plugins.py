@@ -8,7 +8,7 @@ from gazelle.description import Model, Parameters, Plugin, Vector3, World
 from gazelle.errors import did_you_mean
 from gazelle.formats.lint.diagnostic import Diagnostic
 
-# Tags of well-known plugins whose text is the name of a joint, or of several.
+# Tags of well-known plugins with the name of a joint, or of several, as text.
 _JOINT_TAGS = frozenset(
     {
         "leftJoint",

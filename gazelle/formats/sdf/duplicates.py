@@ -43,7 +43,7 @@ def with_own_names(node: Parameters, tags: Collection[str], reading: Reading) ->
 
 
 class FreeNames:
-    """Names with a number behind, found in one pass however many are asked for.
+    """Names with a number behind, found in one pass however many are requested.
 
     Attributes:
         taken: Names that are not free.

@@ -102,7 +102,7 @@ class Scope:
         return base
 
     def _climb(self, name: str, node: Parameters, chain: list[tuple[str, NamedFrame]]) -> Pose:
-        """Resolve frames up to one whose pose is known; the chain collects those between."""
+        """Resolve frames up to one with a known pose; the chain collects those between."""
         while True:
             name = self.own(name)
             if name in {"", self.owner} or self.lacks(name):

@@ -48,7 +48,7 @@ def with_merges(
 
 
 def is_merge(node: Parameters) -> bool:
-    """Return whether an element is an include whose parts become those of its parent."""
+    """Return whether an element is an include with parts merged into its parent."""
     text = node.attributes.get("merge", "")
     return (
         node.tag == "include" and bool(text) and values.parse_flag(node, text, "attribute 'merge'")

@@ -21,7 +21,7 @@ Version = tuple[int, int]
 
 @dataclass(slots=True)
 class ModelFrames:
-    """A model whose frames are known.
+    """A model with known frames.
 
     Attributes:
         node: The ``<model>``; for an included one, that of its own file.

@@ -1,6 +1,6 @@
 """Elements in Gazelle's own namespace for what URDF has and SDF lacks.
 
-SDF lets elements with a prefix stand anywhere; other programs pass over them.
+SDF allows elements with a prefix anywhere; other programs pass over them.
 """
 
 from __future__ import annotations

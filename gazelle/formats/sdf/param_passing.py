@@ -1,4 +1,4 @@
-"""``<experimental:params>`` of an ``<include>``: changes to the model that it brings, as libsdformat makes them.
+"""``<experimental:params>`` of an ``<include>``: changes to the included model, as in libsdformat.
 
 Each element in it names one of the included model by its tag and by ``element_id``, its name after
 those of what it is in (``arm::wrist::camera``), and says with ``action`` what becomes of it:
@@ -44,7 +44,7 @@ def with_params(
         model: The element, as its own file has it.
         include: What includes it.
         reading: Takes what cannot be done as faults.
-        name_of: The name of the model that an ``<include>`` in the model brings.
+        name_of: The name of the included model of an ``<include>`` in the model.
     """
     passing = _Passing(reading, name_of)
     for params in include.find_all(TAG):

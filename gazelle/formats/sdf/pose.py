@@ -18,7 +18,7 @@ def read_pose(node: Parameters | None) -> Pose:
     """Read the pose as written, relative to whatever frame it names.
 
     Raises:
-        FormatError: It does not hold the numbers that its ``rotation_format`` asks for.
+        FormatError: It does not hold the numbers of its ``rotation_format``.
     """
     if node is None or not node.text:
         return _IDENTITY

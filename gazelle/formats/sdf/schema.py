@@ -108,7 +108,7 @@ def _note_unknown(
     child: Parameters, node: Parameters, allowed: dict[str, Any], reading: Reading
 ) -> None:
     if ":" in child.tag:
-        return  # another tool's namespace: SDF lets it stand anywhere
+        return  # another tool's namespace: SDF allows it anywhere
     reading.note(
         f"<{child.tag}> is not an SDF element of <{node.tag}> and was ignored",
         child,

@@ -112,7 +112,7 @@ def _paints(root: Parameters, reading: Reading) -> dict[str, Paint]:
 
 
 def _with_mass(found: list[LumpedLink], root: Parameters, reading: Reading) -> list[LumpedLink]:
-    """Return bodies with a mass whose parents have one; others are noted and left out.
+    """Return bodies with a mass and a parent with one; others are noted and left out.
 
     A robot with no mass at all is kept whole: it can still be shown and planned for.
     """

@@ -46,7 +46,7 @@ class ControlModel:
         """
         velocity = state[TWIST]
         error = command - velocity
-        # A command against the motion first brings the robot to rest.
+        # A command against the motion first stops the robot.
         wanted = np.where(np.abs(error) <= np.abs(command) + _SLACK, command, 0.0)
         slower = np.abs(wanted) < np.abs(velocity)
         limits = np.where(slower, self.deceleration_limits, self.acceleration_limits)

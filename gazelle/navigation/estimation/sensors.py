@@ -215,7 +215,7 @@ class PoseSensor(FusedSensor):
 
         Args:
             frame: In which the pose is given; of an IMU that of its mounting.
-            child: Frame whose pose it is.
+            child: Frame of the pose.
             stamp: [ns].
             pose: Measured.
             covariance: Of position and fixed-axis angles, shape (6, 6).

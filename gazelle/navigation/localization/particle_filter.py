@@ -154,7 +154,7 @@ class ParticleFilter:
         own = np.where(labels == heaviest, self.weights, 0.0)
         x, y, heading = np.ascontiguousarray(self.poses.T)
         # What is averaged: place and direction. Sums, as products of matrices are left to several threads,
-        # whose number would show in the last bits.
+        # with a number that would show in the last bits.
         values = np.stack((x, y, np.cos(heading), np.sin(heading)))
         weight = float(own.sum())
         at_x, at_y, cos, sin = ((values * own).sum(axis=1) / weight).tolist()

@@ -241,7 +241,7 @@ class MoveBase:
             return self._end(GoalOutcome.SUCCEEDED, REACHED)
         timeout = self.settings.oscillation_timeout
         if timeout > 0.0 and self._last_oscillation + timeout < time:
-            # As in the original a velocity is asked for all the same: a robot that has none waits
+            # As in the original a velocity is computed all the same: a robot that has none waits
             # for `controller_patience`, and then recoveries follow each other at once.
             self._recover(_Trigger.OSCILLATION)
         velocity = self.controller.command(state.in_local, state.velocity, to_local)
@@ -278,7 +278,7 @@ class MoveBase:
         self._retries = 0
         self._recovery_index += 1
         self.phase = Phase.PLANNING
-        # A robot that turned is not stopped: from a stand, a base whose least turning rate is more
+        # A robot that turned is not stopped: from a stand, a base with a least turning rate of more
         # than it can reach within a cycle has no way to turn on the spot.
         return MoveStep(recovery=begun)
 

@@ -183,7 +183,7 @@ class DwaPlanner(PlanFollower):
 
         They are used where that rate is too much for a cycle.
 
-        A base whose ``min_vel_theta`` is more than ``acc_lim_theta`` reaches within a cycle has no
+        A base with ``min_vel_theta`` more than ``acc_lim_theta`` reaches within a cycle has no
         way to turn on the spot from a stand. Where driving is out of the question, too, the original
         waits for recoveries; this planner does what its own turning at goals does, and commands
         the least rate all the same.

@@ -24,7 +24,7 @@ class GlobalPlanner(PotentialPlanner):
     Parameters: ``allow_unknown``, ``default_tolerance``, ``lethal_cost`` 253, ``neutral_cost`` 50,
     ``cost_factor`` 3, ``use_quadratic``, ``use_grid_path``, ``orientation_mode`` (0 none, 1 forward, 2
     interpolate, 3 forward then interpolate, 4 backward, 5 leftward, 6 rightward),
-    ``orientation_window_size``. ``use_dijkstra`` false only lets the original look at fewer cells; the
+    ``orientation_window_size``. ``use_dijkstra`` false only makes the original look at fewer cells; the
     way here is the cheapest one in both cases.
     """
 

@@ -62,7 +62,7 @@ class VelocityLimits:
 
 
 class StopRotate:
-    """Brings a robot that is at a goal's place to a stand, and turns it.
+    """Stops a robot at a goal's place, and turns it.
 
     Args:
         limits: Of the base.
@@ -103,7 +103,7 @@ class StopRotate:
         """Stop, or turn; None if there is no room for it.
 
         It turns the shorter way round, as the original, unless only the longer one is free. What the
-        original asks of a turn, that it could continue for ``sim_time``, is only asked where neither is.
+        original requires of a turn, room to continue for ``sim_time``, is only checked where neither is.
 
         Args:
             pose: Of the robot.

@@ -38,7 +38,7 @@ class StageParameters:
 
     @property
     def flat_poses(self) -> bool:
-        """True if ``cmd_pose`` carries ``geometry_msgs/Pose2D``."""
+        """True if ``cmd_pose`` has the type ``geometry_msgs/Pose2D``."""
         return self.cmd_pose_type == "Pose2D"
 
 

@@ -1,4 +1,4 @@
-"""A service for each robot that says where it is, of a type that the user brings."""
+"""A service for the pose of each robot, of a type from the user."""
 
 from __future__ import annotations
 

@@ -55,7 +55,7 @@ def serve_stage(
 ) -> StageServer:
     """Serve a Stage world on a ROS 1 graph as stage_ros does.
 
-    The caller continues stepping it, or lets ``StageServer.run`` do so.
+    The caller continues stepping it, or calls ``StageServer.run``.
 
     Args:
         simulation: Runs.

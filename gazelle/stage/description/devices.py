@@ -163,7 +163,7 @@ class StageGripper:
 
 @dataclass(frozen=True, slots=True)
 class StageActuator:
-    """``actuator``: a joint that carries what is mounted on it.
+    """``actuator``: a joint that moves what is mounted on it.
 
     Attributes:
         type: Along or about its axis.

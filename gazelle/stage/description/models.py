@@ -329,7 +329,7 @@ class StageWorld:
         threads: Threads that Stage would use.
         show_clock: Whether the time is printed.
         show_clock_interval: Steps between two prints.
-        confirm_on_quit: Whether the window asks before it closes.
+        confirm_on_quit: Whether the window prompts before it closes.
         window: The window; None without one.
     """
 

@@ -14,7 +14,7 @@ Kind = type[FormatError]
 
 
 class Property(NamedTuple):
-    """A property as written, read when it is asked for.
+    """A property as written, parsed at access.
 
     Attributes:
         script: File it is in.

@@ -37,7 +37,7 @@ class Units:
 
 @dataclass(slots=True)
 class Properties:
-    """Reads the properties of one entity; what was asked for is known.
+    """Reads the properties of one entity; requested names are recorded.
 
     Attributes:
         entity: What they belong to.
@@ -66,7 +66,7 @@ class Properties:
         return self._all.get(name)
 
     def matching(self, prefix: str) -> list[Property]:
-        """Return all properties whose names begin so."""
+        """Return all properties with this prefix."""
         found = [each for name, each in self._all.items() if name.startswith(prefix)]
         self._known.update(each.name for each in found)
         return found

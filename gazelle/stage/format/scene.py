@@ -58,7 +58,7 @@ from gazelle.stage.format.plugins import Names
 MAX_BOXES = 5_000
 """Boxes of one bitmap; a finer one is drawn coarser."""
 DEFAULT_MASS = 10.0
-"""Of a robot whose file gives none [kg]; Stage's manual names it as the default."""
+"""Of a robot without one in its file [kg]; Stage's manual names it as the default."""
 
 _STEP = 0.01
 """Longest step of other engines [s]: robots on wheels that are not simulated need no finer one."""

@@ -1,4 +1,4 @@
-"""A running ROS graph on a page: robots, frames, and what topics carry."""
+"""A running ROS graph on a page: robots, frames, and messages of topics."""
 
 from gazelle.viewer.graph.view import GraphView
 

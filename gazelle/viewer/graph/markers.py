@@ -88,7 +88,7 @@ def draw_markers(drawing: Drawing, message: visualization_msgs.msg.MarkerArray) 
 def _put_mesh(
     drawing: Drawing, key: str, message: visualization_msgs.msg.Marker, place: dict[str, Any]
 ) -> None:
-    """Draw a mesh file in the marker's colour, or in its own where the marker asks for it."""
+    """Draw a mesh file in the marker's colour, or in its own where the marker requests it."""
     import trimesh
 
     uri = message.mesh_resource

@@ -48,7 +48,7 @@ class DriveControls:
 
     Args:
         context: Of the page.
-        server: Hears what the joystick says.
+        server: Gets the values of the joystick.
     """
 
     def __init__(self, context: PageContext, server: PageServer) -> None:

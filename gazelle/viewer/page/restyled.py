@@ -1,4 +1,4 @@
-"""Worlds whose links look otherwise."""
+"""Worlds with restyled links."""
 
 from __future__ import annotations
 

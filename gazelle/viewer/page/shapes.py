@@ -80,7 +80,7 @@ class ShapeBatches:
         opacity: Below 1 is transparent.
 
     Attributes:
-        links: Names of the links whose places are wanted.
+        links: Names of the links to place.
         rest: Where they are in the description, positions (links, 3) and quaternions (links, 4).
 
     Raises:

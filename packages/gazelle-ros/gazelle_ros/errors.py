@@ -43,7 +43,7 @@ class InvalidNameError(RosError, ValueError):
 
 
 class MarshalError(RosError, ValueError):
-    """A value that XML-RPC cannot carry, or a document that is not XML-RPC."""
+    """A value that XML-RPC cannot represent, or a document that is not XML-RPC."""
 
 
 class MarshalTypeError(MarshalError, TypeError):
@@ -121,7 +121,7 @@ class Md5MismatchError(RosError):
 
 
 class ServiceError(RosError):
-    """A service call did not bring an answer."""
+    """A service call got no answer."""
 
 
 class ServiceNotFoundError(ServiceError):

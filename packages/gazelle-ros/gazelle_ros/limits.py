@@ -12,7 +12,7 @@ class NetworkLimits:
     message_bytes: int = 1_000_000_000
     """Longest message, request or response; the bound of the C++ client library."""
     header_bytes: int = 4 * 1024 * 1024
-    """Longest TCPROS connection header (it carries the full message definition)."""
+    """Longest TCPROS connection header (it has the full message definition)."""
     http_header_bytes: int = 64 * 1024
     """Longest request or status line with all header lines."""
     xml_bytes: int = 64 * 1024 * 1024

@@ -82,7 +82,7 @@ class NodeParameters:
         """Set a parameter or, with a dict, a whole namespace.
 
         Raises:
-            MarshalError: XML-RPC cannot carry the value.
+            MarshalError: XML-RPC cannot represent the value.
         """
         key = self._node.resolve(name)
         self._node.master.set_param(key, value)

@@ -34,7 +34,7 @@ class PeerReports:
 
         Args:
             what: What it was for, such as ``subscriber of /scan``.
-            peer: Who sent it.
+            peer: The sender.
             error: What went wrong.
         """
         now = time.monotonic()

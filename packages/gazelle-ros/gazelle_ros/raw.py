@@ -6,7 +6,7 @@ from typing import Any, ClassVar, Self
 
 
 class RawMessage:
-    """A message whose type is left open: subscribe with it and get the bytes.
+    """A message of any type: subscribe with it and get the bytes.
 
     Attributes:
         _buff: The serialised message.
@@ -38,7 +38,7 @@ _made: dict[Any, type[RawMessage]] = {}
 
 
 def raw_class(message_class: Any) -> type[RawMessage]:
-    """Return a class with the identity of `message_class` whose messages stay bytes."""
+    """Return a class with the identity of `message_class` and messages kept as bytes."""
     if issubclass(message_class, RawMessage):
         return message_class  # type: ignore[no-any-return]
     found = _made.get(message_class)

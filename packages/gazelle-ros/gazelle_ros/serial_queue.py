@@ -21,7 +21,7 @@ class SerialQueue:
     """Handles items one at a time and in order, on the loop's workers.
 
     Args:
-        loop: The loop whose workers are used.
+        loop: The loop of the workers.
         handle: Called with each item; may take long, may raise.
         what: What the items are, for the report of an error.
     """
@@ -32,7 +32,7 @@ class SerialQueue:
         self._loop = loop
         self._handle = handle
         self._running = threading.Lock()
-        """Held by the thread that handles items, from when it is asked to."""
+        """Held by the thread that handles items, from the request on."""
         self._runner = 0
         self.items: deque[Any] = deque()
         self.what = what

@@ -56,7 +56,7 @@ class Statistics:
     """Measures the subscriptions of one node.
 
     Args:
-        node: Whose they are.
+        node: The owner.
         publisher: Of what was measured, a `message_class`.
     """
 

@@ -32,7 +32,7 @@ class TaskQueue(Protocol):
 
 
 class EventTaskQueue:
-    """A task queue whose workers wait for a semaphore of the system's (Linux).
+    """A task queue with workers that wait for a semaphore of the system (Linux).
 
     `queue.SimpleQueue` wakes a worker while the waker still holds the interpreter, so that it has
     to wait once more: 19 instead of 9 us from a publisher to a callback in the same process.
@@ -103,7 +103,7 @@ class ThreadPool:
                 self._grow(self._taken)
 
     def stop(self, timeout: float = 2.0) -> None:
-        """Stop the workers as soon as their tasks are done, and wait for each so long [s]."""
+        """Stop the workers once their tasks are done, and wait for each so long [s]."""
         with self._lock:
             self._stopping = True
             workers = list(self._workers)

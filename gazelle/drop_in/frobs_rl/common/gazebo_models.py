@@ -1,4 +1,4 @@
-"""Models of the simulator: spawn, delete, ask and place them."""
+"""Models of the simulator: spawn, delete, query and place them."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def gazebo_spawn_urdf_string(
 def gazebo_spawn_urdf_param(
     param_name: str, *where: str | float, **place: Unpack[SpawnPlace]
 ) -> SpawnReport:
-    """Spawn a robot whose URDF a parameter holds; see `SpawnPlace`."""
+    """Spawn a robot from the URDF in a parameter; see `SpawnPlace`."""
     return _reported("spawn_urdf", lambda: _held(param_name), where, place)
 
 
@@ -112,7 +112,7 @@ def gazebo_spawn_sdf_string(
 def gazebo_spawn_sdf_param(
     param_name: str, *where: str | float, **place: Unpack[SpawnPlace]
 ) -> bool:
-    """Spawn a model whose SDF a parameter holds; see `SpawnPlace`."""
+    """Spawn a model from the SDF in a parameter; see `SpawnPlace`."""
     return bool(_reported("spawn_sdf", lambda: _held(param_name), where, place))
 
 

@@ -52,7 +52,7 @@ def _is_gazelle(simulator: Gazebo) -> bool:
 def gazebo_step_physics(steps: int = 1) -> None:
     """Advance a paused world by steps; with Gazelle they are done when this returns.
 
-    A real Gazebo is asked by its command, ``gz world``, which returns at once.
+    A real Gazebo is set by its command, ``gz world``, which returns at once.
     """
     simulator = gazebo()
     if _is_gazelle(simulator):

@@ -11,7 +11,7 @@ _STRICT = 2
 
 @reporting
 def load_controller_srv(controller_name: str, ns: str | None = None, max_retries: int = 5) -> None:
-    """Load a controller whose parameters are there; one that is loaded stays."""
+    """Load a controller with parameters on the server; a loaded one stays."""
     load_missing([controller_name], ns, max_retries)
 
 
@@ -57,7 +57,7 @@ def switch_controllers_srv(
         stop_controllers: Those to stop.
         ns: Namespace of the robot.
         strictness: 1 to do what can be done, 2 for all or nothing.
-        start_asap: Start each as soon as its joints are ready.
+        start_asap: Start each once its joints are ready.
         timeout: How long the manager may wait for the robot [s].
         max_retries: How often a call that broke off is made again.
     """

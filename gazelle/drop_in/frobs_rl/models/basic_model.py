@@ -20,7 +20,7 @@ from gazelle_ros.compat import rospy
 
 
 class BasicModel:
-    """A model of Stable-Baselines3 whose parameters are below ``NS/model_params``.
+    """A model of Stable-Baselines3 with parameters below ``NS/model_params``.
 
     Args:
         env: What it learns in.
@@ -29,7 +29,7 @@ class BasicModel:
         load_trained: Load a model that is used as it is.
         load_il_policy: Begin with a policy that was learned by imitation (A2C and PPO).
         il_policy_path: Its file.
-        config_file_pkg: The package whose folder ``config`` has the parameters.
+        config_file_pkg: The package with the parameters in its folder ``config``.
         config_filename: Their file; the algorithm's own if None.
         ns: Namespace of the parameters.
 

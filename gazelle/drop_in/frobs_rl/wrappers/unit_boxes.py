@@ -1,4 +1,4 @@
-"""Boxes whose bounds become -1 and 1."""
+"""Boxes rescaled to bounds of -1 and 1."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Wrappers that bring observations and rewards to mean 0 and variance 1, as seen so far."""
+"""Wrappers that normalize observations and rewards to running mean 0 and variance 1."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The cube that walks by a wheel in its face, on a graph."""
+"""The cube moved by a wheel in its face, on a graph."""
 
 from __future__ import annotations
 

@@ -27,7 +27,7 @@ class SteeringTask(DesiredPoint, WheeledRobotEnv):
     """Action 0 goes forward, 1 turns to the left, 2 to the right.
 
     Attributes:
-        published: The task's rules, whose figures the parameters replace.
+        published: The task's rules; the parameters replace their figures.
         place_at: Where x and y are in an observation; None in a task without a goal.
         goal_axes: Axes that the parameter ``desired_pose`` has.
         last_action: ``FORWARDS``, ``TURN_LEFT`` or ``TURN_RIGHT``.

@@ -13,8 +13,8 @@ from gazelle.formats.write.writing import Writing
 __all__ = ["write_sdf"]
 
 _OLDEST = (1, 7)
-# the version of SDF that brought an element without which a file makes no sense: others, such
-# as <mimic>, are read by who knows them and passed over by who does not
+# the version of SDF with the first such element without which a file makes no sense: others, such
+# as <mimic>, are read by programs that know them and ignored by others
 _SINCE = {"capsule": (1, 8), "ellipsoid": (1, 8), "cone": (1, 12)}
 _WORLD_JOINTS = (1, 10)
 
@@ -22,7 +22,7 @@ _WORLD_JOINTS = (1, 10)
 def write_sdf(content: World | Model, writing: Writing) -> Parameters:
     """Write the root element, of the oldest version since 1.7 that can say it all.
 
-    Older programs read older versions only, so no newer one is asked for than is needed.
+    Older programs read older versions only, so the oldest sufficient one is written.
     """
     body = (
         write_world(content, writing)

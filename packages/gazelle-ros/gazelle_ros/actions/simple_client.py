@@ -29,7 +29,7 @@ class SimpleActionClient:
     """Follows one goal at a time; a new one takes the place of the old.
 
     Args:
-        node: Whose client it is.
+        node: Node of the client.
         name: Of the action.
         spec: The message class of the action.
 

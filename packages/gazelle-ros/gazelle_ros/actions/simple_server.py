@@ -30,7 +30,7 @@ class SimpleActionServer:
     """Works on one goal at a time.
 
     Args:
-        node: Whose server it is.
+        node: Node of the server.
         name: Of the action.
         spec: The message class of the action.
         execute_cb: Called with each goal, on a thread of its own; it ends by `set_succeeded`,
@@ -85,7 +85,7 @@ class SimpleActionServer:
             self._news.notify_all()
         self.action_server.stop()
 
-    # What the work asks ------------------------------------------------------------------------
+    # For the work ----------------------------------------------------------------------------
 
     def accept_new_goal(self) -> Any:
         """Accept the new goal, and return it; the old one is preempted.

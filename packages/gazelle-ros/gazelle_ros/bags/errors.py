@@ -7,7 +7,7 @@ from gazelle_ros.base.program import program_name
 
 
 class BagError(RosError):
-    """A bag cannot be read or written as asked."""
+    """A bag cannot be read or written as requested."""
 
 
 class BagFormatError(BagError):

@@ -153,7 +153,7 @@ def _replace(
 
 
 def fix_bag(source: str, target: str, *, force: bool = False) -> list[str]:
-    """Copy a bag whose types are those known here.
+    """Copy a bag with the types known here.
 
     Rules that turn messages of old types into new ones are not run: where types differ nothing is copied,
     or with `force` all as it is.

@@ -57,7 +57,7 @@ def positive_int(text: str) -> int:
 
 
 def positive_float(text: str) -> float:
-    """Return a number above 0, whose inverse and whose nanoseconds are of an ordinary size, too."""
+    """Return a number above 0, with an inverse and nanoseconds of an ordinary size, too."""
     number = _number(float, text)
     if number is None or not 0.0 < number < math.inf:
         raise argparse.ArgumentTypeError(f"expected a number above 0, not '{text}'")

@@ -26,12 +26,12 @@ _NAMED = 6
 
 
 GROUP = "gazelle_ros.packages"
-"""Entry points whose values are Python packages with folders of ROS packages, as ``gazelle.assets``."""
+"""Entry points of Python packages with folders of ROS packages, as ``gazelle.assets``."""
 
 
 @functools.cache
 def roots() -> tuple[Path, ...]:
-    """Return the folders of ROS packages that installed distributions bring."""
+    """Return the folders of ROS packages of installed distributions."""
     specs = (find_spec(point.value) for point in entry_points_of(GROUP).values())
     places = (spec.submodule_search_locations or () for spec in specs if spec is not None)
     return tuple(Path(place) for found in places for place in found)

@@ -1,4 +1,4 @@
-"""Characters that text copied from web pages and word processors brings along."""
+"""Special characters in text copied from web pages and word processors."""
 
 from __future__ import annotations
 

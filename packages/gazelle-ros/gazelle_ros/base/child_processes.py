@@ -44,7 +44,7 @@ def child_process(command: Sequence[str], **options: Any) -> Iterator[subprocess
 
     Raises:
         OSError: The program cannot be executed.
-        Interrupted: The process was asked to end meanwhile.
+        Interrupted: The process was interrupted meanwhile.
     """
     process: subprocess.Popen[bytes] | None = None
     try:

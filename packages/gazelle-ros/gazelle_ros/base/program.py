@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from importlib.util import find_spec
 
 _VARIABLE = "GAZELLE_PROGRAM"
-"""Inherited by the processes that a command starts, whose messages the user reads, too."""
+"""Inherited by the processes that a command starts; the user reads their messages, too."""
 
 
 def program_name() -> str:

@@ -33,7 +33,7 @@ class NodeArguments:
     """Private parameters, as YAML."""
 
     def start(self, *, rosout: bool = True, **keywords: Any) -> Node:
-        """Start the node, as soon as there is a master, with its private parameters set.
+        """Start the node once there is a master, with its private parameters set.
 
         Args:
             rosout: Publish this process's warnings and log on ``/rosout``.
@@ -118,13 +118,13 @@ class CallbackWork:
 
     def run(self, stop: threading.Event) -> None:
         """Wait until shutdown."""
-        # The node may have been asked to end while it began, before there was a hook.
+        # The node may have been shut down during its start, before there was a hook.
         while not self.node.closed and not stop.wait(_END_LOOK_S):
             pass
 
 
 def run_node(arguments: Sequence[str], name: str, make: Callable[[Node], NodeWork]) -> int:
-    """Start a node, and do its work until Ctrl-C, SIGTERM, or until it is asked to end; returns 0.
+    """Start a node, and do its work until Ctrl-C, SIGTERM, or until it is shut down; returns 0.
 
     Args:
         arguments: Command line without the program.
@@ -139,7 +139,7 @@ def run_node(arguments: Sequence[str], name: str, make: Callable[[Node], NodeWor
 
 
 def spin(node: Node) -> int:
-    """Wait until Ctrl-C, SIGTERM, or until the node is asked to end; returns 0."""
+    """Wait until Ctrl-C, SIGTERM, or until the node is shut down; returns 0."""
     with stopping() as stop:
         node.on_shutdown.append(lambda _reason: stop.set())
         CallbackWork(node).run(stop)

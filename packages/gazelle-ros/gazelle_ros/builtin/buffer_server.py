@@ -1,4 +1,4 @@
-"""``buffer_server`` of tf2_ros: a buffer that others ask by the action of the node's name."""
+"""``buffer_server`` of tf2_ros: a buffer with an action of the node's name."""
 
 from __future__ import annotations
 

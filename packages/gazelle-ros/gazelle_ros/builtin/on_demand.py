@@ -12,7 +12,7 @@ from gazelle_ros.subscribing import Subscriber
 
 
 class OnDemandPublisher:
-    """Publisher whose node subscribes to its sources while the topic has subscribers.
+    """Publisher that subscribes to its sources while it has subscribers itself.
 
     Args:
         node: On the graph.
@@ -31,7 +31,7 @@ class OnDemandPublisher:
         self._publisher = node.advertise(
             topic, kind, on_connect=self._look, on_disconnect=self._look
         )
-        self._look("")  # one may have connected before there was a publisher to ask
+        self._look("")  # one may have connected before there was a publisher
 
     def publish(self, message: Any) -> None:
         """Publish a message."""

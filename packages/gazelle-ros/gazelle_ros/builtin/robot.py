@@ -13,7 +13,7 @@ _PARAMETER = "robot_description"
 
 
 def state_main(arguments: Sequence[str]) -> int:
-    """Send the transforms of a robot whose joints move; returns the exit code."""
+    """Send the transforms of a robot with moving joints; returns the exit code."""
     found = parse_arguments(arguments, "robot_state_publisher")
     with found.start() as node:
         RobotStatePublisher(node, described_joints(node))

@@ -1,4 +1,4 @@
-"""``rospack find PACKAGE`` and ``rospack list``, for scripts that ask where packages are."""
+"""``rospack find PACKAGE`` and ``rospack list``, for scripts that look for packages."""
 
 from __future__ import annotations
 

@@ -46,7 +46,7 @@ def main(words: Sequence[str]) -> int:
     name, *arguments = words[1:] if in_place else words
     real = real_terminal(name, os.environ)
     if real is not None:
-        os.execv(real, [name, *arguments])  # noqa: S606  # the terminal that was asked for
+        os.execv(real, [name, *arguments])  # noqa: S606  # the requested terminal
     why = "it is not installed" if has_display(os.environ) else "there is no display"
     commands = programs(name, arguments)
     if not commands:
@@ -128,7 +128,7 @@ def _started(name: str, why: str, command: list[str]) -> tuple[list[str], Path]:
 
 def _start(command: list[str], log: Path) -> None:
     with log.open("ab") as stream:
-        subprocess.Popen(  # noqa: S603  # to run it is what was asked for
+        subprocess.Popen(  # noqa: S603  # running it is the purpose
             command,
             stdin=subprocess.DEVNULL,
             stdout=stream,
@@ -146,7 +146,7 @@ def _become(command: list[str], log: Path) -> int:
     for source, target in ((nothing, 0), (stream, 1), (stream, 2)):
         os.dup2(source, target)
     try:
-        os.execvp(command[0], command)  # noqa: S606  # to run it is what was asked for
+        os.execvp(command[0], command)  # noqa: S606  # running it is the purpose
     except OSError as error:
         os.write(said, f"'{command[0]}' cannot be run: {error.strerror}\n".encode())
         return 127

@@ -37,7 +37,7 @@ class Priorities:
         return max((each.priority for each in self.locks if each.is_locked(now)), default=0)
 
     def chosen(self, now: int) -> MuxInput | None:
-        """Return the source whose commands pass, or None.
+        """Return the source of the passed commands, or None.
 
         The first of those with the highest priority passes. One of priority 0 never does.
         """

@@ -14,7 +14,7 @@ from gazelle_ros.launch.packages import Packages
 
 _FOLDER = Path(__file__).resolve().parent / "share" / "xacro"
 _NO_EFFECT = {"--inorder", "-i", "--xacro-ns"}
-"""Options of older versions that ask for what is usual now."""
+"""Options of older versions that are the default now."""
 
 
 def main(arguments: Sequence[str]) -> int:

@@ -1,1 +1,1 @@
-"""The command line ``gazelle-ros``, whose commands are also those of ``gazelle``."""
+"""The command line ``gazelle-ros``; its commands are also those of ``gazelle``."""

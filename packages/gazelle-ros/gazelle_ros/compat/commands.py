@@ -17,7 +17,7 @@ def run(command: str, arguments: Sequence[str] | None = None) -> None:
 
     Args:
         command: Gazelle's command, such as ``param``.
-        arguments: The command line, whose first word is the tool's name; by default this process's.
+        arguments: The command line, with the tool's name first; by default this process's.
 
     Raises:
         SystemExit: It failed.

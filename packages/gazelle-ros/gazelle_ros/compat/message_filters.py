@@ -98,7 +98,7 @@ class Cache(SimpleFilter):
         self.connectInput(f)
 
     def connectInput(self, f: SimpleFilter) -> None:  # noqa: N802
-        """Add a filter whose messages are kept."""
+        """Add a filter and keep its messages."""
         self.incoming_connection = f.registerCallback(self.add)
 
     def add(self, msg: Message) -> None:
@@ -205,7 +205,7 @@ class TimeSynchronizer(SimpleFilter):
 
 
 class ApproximateTimeSynchronizer(TimeSynchronizer):
-    """Passes on messages of several filters whose times are close.
+    """Passes on messages of several filters with close times.
 
     Args:
         fs: The filters.

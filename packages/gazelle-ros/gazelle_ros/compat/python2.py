@@ -1,4 +1,4 @@
-"""Tells what in a script is written for Python 2, and what to write instead.
+"""Detection of Python 2 code in a script, with replacements.
 
 What changed is from https://docs.python.org/3.0/whatsnew/3.0.html.
 """

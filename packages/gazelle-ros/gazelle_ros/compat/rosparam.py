@@ -30,7 +30,7 @@ class RosParamIOException(RosParamException):
 
 
 def get_param_server() -> Master:
-    """Return the master, whose methods raise rosgraph's errors."""
+    """Return the master; its methods raise rosgraph's errors."""
     return Master(f"rosparam-{os.getpid()}")
 
 

@@ -20,7 +20,7 @@ def rosrun(
     """Run tests, write the results, end the node, and the process with 1 if any failed.
 
     Args:
-        package: Whose tests they are.
+        package: Package of the tests.
         test_name: Their name.
         test: A class of tests.
         sysargs: The command line, by default this process's.

@@ -25,7 +25,7 @@ def unitrun(
     """Run tests, write the results, and end the process with 1 if any failed.
 
     Args:
-        package: Whose tests they are.
+        package: Package of the tests.
         test_name: Their name.
         test: A class of tests, or ``module.Class``.
         sysargs: The command line, by default this process's.

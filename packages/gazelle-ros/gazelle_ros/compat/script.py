@@ -134,7 +134,7 @@ def _closest(file: Path) -> str | None:
 def _execute(source: bytes, file: Path, main: types.ModuleType, *, debug: bool) -> int:
     try:
         code = compile(source, str(file), "exec", dont_inherit=True)
-        exec(code, main.__dict__)  # noqa: S102  # to run it is what the user asked for
+        exec(code, main.__dict__)  # noqa: S102  # running it is the purpose
     except SystemExit as stop:
         if stop.code is None or isinstance(stop.code, int):
             return stop.code or 0
@@ -176,7 +176,7 @@ def _simulated_sleep() -> Iterator[None]:
         from gazelle_ros.compat.rospy import timer
         from gazelle_ros.compat.rospy.state import process
 
-        file = sys._getframe(1).f_code.co_filename  # noqa: SLF001  # who asks decides
+        file = sys._getframe(1).f_code.co_filename  # noqa: SLF001  # the caller decides
         ours = file.startswith((_PACKAGE, _LIBRARY)) and "site-packages" not in file
         if ours or process.node is None or not process.node.clock.simulated:
             real(seconds)

@@ -184,7 +184,7 @@ class BufferCore:
         """Return one line for each frame and its parent."""
         return self.tree.as_string()
 
-    # The names of the real module, for those who reach for them.
+    # The names of the real module, for scripts that use them.
 
     def _frameExists(self, frame_id: str) -> bool:  # noqa: N802
         return self.tree.has(frame_id)

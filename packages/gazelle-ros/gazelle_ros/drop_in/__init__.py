@@ -1,4 +1,4 @@
-"""Modules under foreign names, for those who have none of their own: smach, six and others.
+"""Modules under foreign names, used where they are not installed: smach, six and others.
 
 Entry points of ``gazelle_ros.modules`` name them. Modules that are ROS's own stand in ``compat``.
 """

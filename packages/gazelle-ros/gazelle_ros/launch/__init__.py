@@ -1,4 +1,4 @@
-"""Launch files of ROS 1: read them, and run what they ask for."""
+"""Launch files of ROS 1: read and run them."""
 
 from gazelle_ros.launch.errors import (
     LaunchError,

@@ -113,7 +113,7 @@ class Argument:
 
 @dataclass(slots=True)
 class LaunchPlan:
-    """All that launch files ask for, in order."""
+    """Content of launch files, in order."""
 
     files: list[str] = field(default_factory=list)
     """The launch files read, those included too."""

@@ -191,7 +191,7 @@ def stop_all(
 
 
 def _send(processes: list[NodeProcess], number: int, seconds: float) -> list[NodeProcess]:
-    """Send a signal to those that run, and wait for their end; returns whom it was sent to."""
+    """Send a signal to those that run, and wait for their end; returns its receivers."""
     alive = [each for each in processes if each.running]
     for each in alive:
         each.signal(number)

@@ -1,4 +1,4 @@
-"""Do what a plan asks for: a master, parameters, nodes; watch them; end them."""
+"""Runner of a plan: starts a master, parameters and nodes; watches and ends them."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class Options:
 
 
 class Launch(Closeable):
-    """A plan that is carried out.
+    """A running plan.
 
     ::
 

@@ -1,1 +1,1 @@
-"""The ROS master: who publishes, subscribes and serves what, and the parameter server."""
+"""The ROS master: registrations of topics and services, and the parameter server."""

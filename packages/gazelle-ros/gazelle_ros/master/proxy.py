@@ -20,7 +20,7 @@ from gazelle_ros.limits import LIMITS, NetworkLimits
 from gazelle_ros.xmlrpc.client import BlockingClient
 
 GREETING_S = 10.0
-"""A master that does not say who it is within this time is none [s]."""
+"""A master that does not identify itself within this time is none [s]."""
 
 
 def taken_hint() -> str:
@@ -54,7 +54,7 @@ class MasterProxy:
 
     Args:
         uri: Of the master.
-        caller: Name of the node that asks.
+        caller: Name of the calling node.
         timeout: Seconds to wait for an answer.
     """
 

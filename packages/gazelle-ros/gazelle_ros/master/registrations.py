@@ -66,7 +66,7 @@ class Registrations:
     """Everything nodes registered.
 
     A node is dropped when it has nothing registered any more. A node that appears under a
-    new URI replaces the old one of that name, whose registrations all go.
+    new URI replaces the old one of that name, with all its registrations.
     """
 
     def __init__(self) -> None:

@@ -30,7 +30,7 @@ def main(arguments: Sequence[str]) -> int:
         sys.stderr.write(f"[rosmaster] {error}\n")
         return 1
     except KeyboardInterrupt:
-        return 0  # asked to end while it began
+        return 0  # shut down during its start
     return 0
 
 

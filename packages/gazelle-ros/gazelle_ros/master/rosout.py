@@ -22,7 +22,7 @@ class LogMessage(RawMessage):
 
 
 class RosoutAggregator:
-    """Lets a log viewer follow one publisher instead of one for each node.
+    """Aggregator of logs: a viewer follows one publisher instead of one for each node.
 
     Args:
         node: The node that does it; it goes by wall time.

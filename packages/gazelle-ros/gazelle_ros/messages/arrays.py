@@ -1,6 +1,6 @@
 """Arrays of numbers on their way into and out of bytes.
 
-numpy is imported only when a message asks for it.
+numpy is imported only when a message needs it.
 """
 
 from __future__ import annotations

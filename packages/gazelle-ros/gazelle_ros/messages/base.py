@@ -57,7 +57,7 @@ class Message:
         """Write the message as bytes.
 
         Raises:
-            SerializationError: A field holds what its type cannot carry.
+            SerializationError: A field holds a value outside its type.
         """
         _compile(self, "serialize")(self, buff)
 

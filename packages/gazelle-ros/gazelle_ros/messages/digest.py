@@ -19,7 +19,7 @@ Md5Of = Callable[[str], str]
 
 
 def hashed_text(spec: MessageSpec, md5_of: Md5Of) -> str:
-    """Return the text whose MD5 sum identifies a message: constants, then fields, no comments."""
+    """Return the text for the MD5 sum of a message: constants, then fields, no comments."""
     lines = [f"{each.type} {each.name}={each.text}" for each in spec.constants]
     for field in spec.fields:
         if field.base in BUILTIN:

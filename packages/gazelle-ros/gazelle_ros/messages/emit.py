@@ -63,7 +63,7 @@ class GeneratedCode:
 
 
 def fixed_codes(spec: MessageSpec, known: dict[str, type[Message]]) -> str | None:
-    """Return struct codes of a message whose size is always the same; otherwise ``None``.
+    """Return struct codes of a message of constant size; otherwise ``None``.
 
     Arrays of fixed length count as not fixed, unless they are of octets.
     """

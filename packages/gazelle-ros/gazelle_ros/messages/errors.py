@@ -10,7 +10,7 @@ class MessageException(RosError):  # noqa: N818  # the public name of genpy's cl
 
 
 class SerializationError(MessageException):
-    """A field of a message holds a value that its type cannot carry."""
+    """A field of a message holds a value outside its type."""
 
 
 class DeserializationError(MessageException):

@@ -77,7 +77,7 @@ class DefinitionsModule(ModuleType):
             _modules.add(self)
 
     def forget(self) -> None:
-        """Remove the classes; the next access asks the registry again."""
+        """Remove the classes; the next access queries the registry again."""
         for name in self._made:
             self.__dict__.pop(name, None)
         self._made.clear()
@@ -162,7 +162,7 @@ class PackageLoader(importlib.abc.Loader):
 
 
 def importing(module: str, package: str) -> Callable[[str], ModuleType]:
-    """Return the ``__getattr__`` of a package whose definitions are no files beside it.
+    """Return the ``__getattr__`` of a package without definition files beside it.
 
     Args:
         module: Full name of the Python package.

@@ -1,4 +1,4 @@
-"""Pickle and copy messages, whose classes cannot always be imported by name."""
+"""Pickling and copying of messages with classes that may not be importable by name."""
 
 from __future__ import annotations
 

@@ -29,7 +29,7 @@ _HALVES = ("Request", "Response")
 
 
 class Registry:
-    """Classes by type name, made when they are first asked for.
+    """Classes by type name, made at first access.
 
     Args:
         find: Gives what a package defines, from the first source that has it: an iterator over
@@ -256,7 +256,7 @@ def package_names(package: str, kind: str = "msg") -> list[str]:
 
 
 def class_from_text(name: str, text: str) -> type[Message]:
-    """Return a message class from a full text, such as bags and connections carry.
+    """Return a message class from a full text, such as in bags and connections.
 
     Kept apart by name.
 

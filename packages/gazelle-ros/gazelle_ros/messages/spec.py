@@ -22,7 +22,7 @@ INTEGER_BITS = {
 UNSIGNED = frozenset({"uint8", "uint16", "uint32", "uint64", "char"})
 FLOATS = frozenset({"float32", "float64"})
 OCTETS = frozenset({"uint8", "char"})
-"""Types whose arrays are ``bytes`` in Python."""
+"""Types with arrays that are ``bytes`` in Python."""
 
 SCALARS = frozenset(INTEGER_BITS) | FLOATS | {"bool"}
 CONSTANT_TYPES = SCALARS | {"string"}

@@ -25,7 +25,7 @@ class JointStatePublisher:
     ``publish_default_efforts`` (false) are read at the start.
 
     Args:
-        node: Whose topics are used.
+        node: Node of the topics.
         joints: Of the robot.
     """
 

@@ -30,7 +30,7 @@ class RobotStatePublisher:
     parameter ``tf_prefix``.
 
     Args:
-        node: Whose topics are used: ``joint_states``, ``/tf``, ``/tf_static``.
+        node: Node of the topics: ``joint_states``, ``/tf``, ``/tf_static``.
         joints: Of the robot.
     """
 

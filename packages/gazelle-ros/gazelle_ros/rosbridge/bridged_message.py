@@ -1,4 +1,4 @@
-"""A message on its way to clients, encoded once for all who want it alike."""
+"""A message on its way to clients, encoded once for all clients of one encoding."""
 
 from __future__ import annotations
 

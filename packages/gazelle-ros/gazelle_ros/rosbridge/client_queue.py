@@ -106,7 +106,7 @@ class ClientQueue:
             self._turns = deque(each for each in self._turns if each is not queue)
 
     def take(self, now: float) -> tuple[Parcel | None, float | None]:
-        """Return the next item to send, or else the time to look again [s]; None if not soon.
+        """Return the next item to send, or else the time to look again [s]; None if not shortly.
 
         Args:
             now: The time [s].

@@ -42,7 +42,7 @@ class FragmentBuffer:
 
     Args:
         most_bytes: Characters that may wait in all.
-        patience: Seconds after which a message whose pieces do not come is forgotten.
+        patience: Seconds after which an incomplete message is dropped.
     """
 
     def __init__(self, most_bytes: int, patience: float) -> None:

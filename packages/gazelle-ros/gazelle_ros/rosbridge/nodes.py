@@ -59,7 +59,7 @@ def rosapi_main(arguments: Sequence[str]) -> int:
 
 
 def listening_text(settings: BridgeSettings, port: int) -> str:
-    """Describe the address it listens on, and who can reach it."""
+    """Describe the address it listens on, and its reach."""
     scheme = "wss" if settings.certfile else "ws"
     text = f"Rosbridge WebSocket server started at {scheme}://{settings.address}:{port}"
     if _is_loopback(settings.address):
@@ -68,7 +68,7 @@ def listening_text(settings: BridgeSettings, port: int) -> str:
 
 
 def _listen(node: Node, settings: BridgeSettings) -> BridgeServer | None:
-    """Return the server, as soon as its port is free; None if the node is to end first."""
+    """Return the server once its port is free; None if the node is to end first."""
     while True:
         try:
             return BridgeServer(node, settings)

@@ -40,7 +40,7 @@ class BridgeServer(Closeable):
     Each client has its own queue and its own sender, so that a slow one blocks no other.
 
     Args:
-        node: On the graph. Its topics ``client_count`` and ``connected_clients`` say who is there.
+        node: On the graph. Its topics ``client_count`` and ``connected_clients`` list the clients.
         settings: Of the server.
 
     Attributes:

@@ -86,7 +86,7 @@ class PublisherPool:
 
         Args:
             topic: Its name.
-            find_class: Gives the class of the messages; asked before anything is changed.
+            find_class: Gives the class of the messages; called before anything is changed.
             size: Of the queue for each subscriber.
             latch: Whether the last message is kept.
 

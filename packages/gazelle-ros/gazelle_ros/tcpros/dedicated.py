@@ -1,6 +1,6 @@
 """A worker that reads one busy socket, so that its messages need not pass the event loop.
 
-Asking the system which socket is ready, and then the socket for its data, are two calls for each
+Querying the system for the ready socket, and then the socket for its data, are two calls for each
 message, and handing it to a worker costs as much again. While a socket is busy, a worker reads it and
 handles what comes; as soon as it is not, the event loop watches it again. Only a few sockets are read
 so at a time: the number of threads does not grow with that of connections.
@@ -78,7 +78,7 @@ class DedicatedReader:
         self._loop.submit(lambda: self._read(sock))
 
     def stop(self) -> None:
-        """Read no more; who waits for the socket right now is woken by its shutdown."""
+        """Read no more; a thread that waits for the socket is woken by its shutdown."""
         self._stopped = True
 
     def _read(self, sock: socket.socket) -> None:

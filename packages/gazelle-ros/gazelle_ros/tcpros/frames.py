@@ -18,7 +18,7 @@ _BIG = 16384
 _ROOM = b"\0\0\0\0"
 _SIP = 1024 * 1024
 _CAN_WAIT_FOR_MORE = sys.platform == "linux"
-"""Elsewhere the low-water mark of a socket is not supported by those who wait for it."""
+"""Elsewhere the low-water mark of a socket is not supported by polling."""
 
 
 class ClosedError(ConnectionError):

@@ -40,7 +40,7 @@ class Receiver(Protocol):
             now: Handle them on this thread if possible, which need not be back soon.
 
         Returns:
-            Whether those who handle them keep up.
+            Whether the handlers keep up.
         """
 
     def connected(self, link: InboundLink) -> None:

@@ -76,7 +76,7 @@ class TcprosServer:
 
 
 class _Greeting:
-    """A connection whose header is not complete yet."""
+    """A connection with an incomplete header."""
 
     def __init__(
         self, server: TcprosServer, loop: EventLoop, sock: socket.socket, address: net.Address

@@ -93,7 +93,7 @@ class ServiceConnection:
         self._close_socket()
 
     def _close_socket(self) -> None:
-        """Close the socket as soon as no worker uses it; who does asks for this when it is done."""
+        """Close the socket once no worker uses it; the last worker requests this when done."""
         if not (self._working or self._dedicated.active):
             self._loop.close(self._sock)
 
@@ -148,7 +148,7 @@ class ServiceConnection:
                 self._loop.call_soon(self._linger)
 
     def _linger(self) -> None:
-        """Wait for the client to close the connection, if it does so soon."""
+        """Wait for the client to close the connection, if it does so shortly."""
         if not self._closed:
             self._loop.watch(self._sock, READ, self._part)
             self._loop.call_later(_LINGER_S, self.close)
@@ -239,7 +239,7 @@ class ServiceChannel:
 
         Raises:
             ServiceFailedError: The server says it failed.
-            ServiceError: The connection broke, or carries nonsense.
+            ServiceError: The connection broke, or its data is invalid.
             RosTimeoutError: No answer in time.
         """
         try:

@@ -27,7 +27,7 @@ class ParentTransform:
 
 
 class OutsideError(Exception):
-    """The time asked for is not held; the text says how far off it is."""
+    """The requested time is not held; the text says how far off it is."""
 
 
 class FrameCache(Protocol):

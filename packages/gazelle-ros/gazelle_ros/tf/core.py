@@ -96,7 +96,7 @@ class FrameTree:
             stamp: When [ns].
             translation: [m].
             rotation: (x, y, z, w).
-            authority: Who says so.
+            authority: The sender.
             static: Whether it holds at all times; the first placement of a frame decides.
 
         Returns:
@@ -247,7 +247,7 @@ class FrameTree:
             )
         return "".join(lines)
 
-    # Walking the tree ----------------------------------------------------------------------
+    # Traversal of the tree ----------------------------------------------------------------------
 
     def _check(self, what: str, name: str) -> None:
         fault = name_fault(name, what)

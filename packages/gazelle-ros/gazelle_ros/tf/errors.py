@@ -18,7 +18,7 @@ class ConnectivityException(TransformException):
 
 
 class ExtrapolationException(TransformException):
-    """The time asked for is outside of what the buffer holds."""
+    """The requested time is outside of what the buffer holds."""
 
 
 class InvalidArgumentException(TransformException):

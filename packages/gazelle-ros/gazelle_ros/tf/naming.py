@@ -31,7 +31,7 @@ class FramePrefixes:
     """The parameters ``tf_prefix`` of a graph, as they are when this is made.
 
     Args:
-        node: Asks the parameter server, once.
+        node: Queries the parameter server, once.
     """
 
     def __init__(self, node: Node) -> None:

@@ -55,7 +55,7 @@ class MessageQueue:
             if not self._waiting:
                 self._news.wait(_LOOK_S)
             waiting = list(self._waiting)
-        # Asked before the older ones: transforms come in their order, also while these are worked off. So what
+        # Queried before the older ones: transforms come in their order, also while these are worked off. So what
         # is not known then, though this one was, is too old ever to be known.
         newest = waiting and find(waiting[-1]) is not None
         done = []

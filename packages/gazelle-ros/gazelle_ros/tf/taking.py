@@ -14,7 +14,7 @@ def take_transforms(
     Args:
         tree: Takes them.
         message: Of ``/tf`` or ``/tf_static``.
-        authority: Who says so, for the log.
+        authority: The sender, for the log.
         static: Whether they hold at all times.
     """
     for each in message.transforms:

@@ -29,7 +29,7 @@ def twist(
         tree: The frames.
         tracked: The frame that moves.
         observer: The frame it moves against.
-        reference: The frame whose axes the result has.
+        reference: The frame of the result's axes.
         point: Where the velocity is taken [m].
         point_frame: The frame of `point`.
         stamp: In the middle of the interval [ns], 0 for the latest.

@@ -79,7 +79,7 @@ class Echo:
         """Write a message, or another part of it than usual.
 
         Raises:
-            ToolError: It has not the field that is asked for.
+            ToolError: It has not the requested field.
         """
         options = self._options
         if self.done or (options.keep is not None and not options.keep(message)):
@@ -110,7 +110,7 @@ def echo(
     """Write the messages of a topic, or a field of them, until `stop` is set.
 
     Raises:
-        ToolError: The messages have not the field that is asked for.
+        ToolError: The messages have not the requested field.
     """
     found = wait_for_topic(graph, name, stop)
     if found is None:

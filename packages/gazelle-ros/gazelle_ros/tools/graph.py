@@ -18,7 +18,7 @@ UNKNOWN_TYPE = "unknown type"
 
 
 class GraphInspector(Closeable):
-    """A master, asked by a tool.
+    """A tool's access to a master.
 
     Args:
         tool: What the tool calls itself, such as ``rostopic``.

@@ -46,7 +46,7 @@ def parse_arguments(words: Iterable[str]) -> list[Any]:
 
 
 def documents(stream: TextIO) -> Iterator[list[Any]]:
-    """Yield the YAML documents of a stream, as soon as each is complete: when ``---`` follows it.
+    """Yield the YAML documents of a stream, once each is complete: when ``---`` follows it.
 
     What is after the last ``---`` is not complete and left out.
     """

@@ -92,7 +92,7 @@ def measure_rates(
         window: How many messages count.
         keep: Which messages count.
         wall_time: Measure wall time even where time is simulated.
-        tcp_nodelay: Ask for it.
+        tcp_nodelay: Request it.
     """
     meters: dict[str, RateMeter] = {}
     with tool_node(graph) as node:

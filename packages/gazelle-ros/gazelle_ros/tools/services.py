@@ -127,7 +127,7 @@ class ServiceCaller:
 
     Args:
         graph: The graph.
-        node: Whose calls they are.
+        node: Node of the calls.
         service: The service's name.
 
     Raises:

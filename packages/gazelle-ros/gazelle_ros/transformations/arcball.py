@@ -128,7 +128,7 @@ def arcball_constrain_to_axis(point: npt.ArrayLike, axis: npt.ArrayLike) -> Floa
 
 
 def arcball_nearest_axis(point: npt.ArrayLike, axes: Iterable[npt.ArrayLike]) -> Floats:
-    """Return the axis whose circle is nearest to a place on the ball."""
+    """Return the axis of the circle nearest to a place on the ball."""
     place = np.asarray(point, dtype=np.float64)
     return max(
         (np.asarray(axis, dtype=np.float64) for axis in axes),

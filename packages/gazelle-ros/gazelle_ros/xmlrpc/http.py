@@ -88,7 +88,7 @@ class MessageReader:
         return message
 
     def end(self) -> HttpMessage | None:
-        """Return the message whose body ended with the stream, if any."""
+        """Return the message with a body ended by the stream, if any."""
         message, self._message = self._message, None
         if message is None or self._length is not None:
             return None

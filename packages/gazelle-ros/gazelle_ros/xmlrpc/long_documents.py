@@ -43,7 +43,7 @@ class BackgroundTasks:
     time, and the loop would have to wait for its turn.
 
     Args:
-        loop: Whose threads are used.
+        loop: Loop of the threads.
     """
 
     def __init__(self, loop: EventLoop) -> None:

@@ -1,1 +1,1 @@
-"""The cube that walks by a wheel."""
+"""The cube moved by a wheel."""

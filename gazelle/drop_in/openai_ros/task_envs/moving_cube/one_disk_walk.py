@@ -1,4 +1,4 @@
-"""A cube walks along y by the wheel in its face."""
+"""Task: a cube moves along y by the wheel in its face."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ register_task("MovingCubeOneDiskWalk-v0")
 
 
 class MovingCubeOneDiskWalkEnv(GraphTask, CubeSingleDiskEnv):
-    """Walk along y; parameters under ``/moving_cube``.
+    """Move along y; parameters under ``/moving_cube``.
 
     Observation: speed of the wheel [rad/s] without decimals; way along y [m], roll, pitch [rad], velocity
     along y [m/s] and yaw [rad] with one. Actions: the wheel to ``roll_speed_fixed_value``, to the

@@ -28,7 +28,7 @@ class JoystickEvent:
         number: Of the axis or the button.
         value: -32767 to 32767 of an axis, 0 or 1 of a button.
         is_axis: Whether it is an axis.
-        is_initial: Whether it tells the state at the beginning.
+        is_initial: Whether it reports the initial state.
     """
 
     number: int

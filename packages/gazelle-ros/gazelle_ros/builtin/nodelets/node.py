@@ -16,7 +16,7 @@ class NodeletNode(Node):
 
     Args:
         nodelet: Global name of the nodelet.
-        manager: Node of the manager, whose master, host and clock it has.
+        manager: Node of the manager; the nodelet shares its master, host and clock.
         remappings: Of the nodelet, from global names to global names; those of the manager hold, too.
     """
 

@@ -12,7 +12,7 @@ class HandleTrackerDeleter:
     """Notes when the last handle of a goal is gone.
 
     Args:
-        action_server: Whose goal it is; its lock is taken.
+        action_server: Server of the goal; its lock is taken.
         status_tracker: Of the goal.
     """
 

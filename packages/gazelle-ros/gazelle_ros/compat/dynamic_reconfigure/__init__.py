@@ -18,7 +18,7 @@ class DynamicReconfigureCallbackException(DynamicReconfigureException):
 
 
 def find_reconfigure_services() -> list[str]:
-    """Return names of the nodes whose parameters can be changed."""
+    """Return names of the nodes with changeable parameters."""
     from gazelle_ros.compat.rosservice import rosservice_find
 
     found = rosservice_find("dynamic_reconfigure/Reconfigure")

@@ -57,7 +57,7 @@ def set_model_configuration_client(
     """Set joint positions of a model; waits for the service, for ever if need be.
 
     Args:
-        model_name: Whose joints.
+        model_name: Model of the joints.
         model_param_name: Gazebo takes it, and ignores it.
         joint_names: Which.
         joint_positions: Where [rad or m].

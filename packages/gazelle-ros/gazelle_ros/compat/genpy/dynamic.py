@@ -1,4 +1,4 @@
-"""Classes from the texts that connections and bags carry, where genpy keeps them."""
+"""Classes from the texts of connections and bags, where genpy keeps them."""
 
 from __future__ import annotations
 

@@ -166,7 +166,7 @@ class StereoCameraModel:
 
     Attributes:
         left: The left one.
-        right: The right one, whose projection has the baseline.
+        right: The right one; its projection has the baseline.
     """
 
     def __init__(self) -> None:

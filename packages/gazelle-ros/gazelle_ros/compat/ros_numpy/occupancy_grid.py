@@ -1,4 +1,4 @@
-"""Maps: masked arrays, whose masked cells are unknown."""
+"""Maps: masked arrays with unknown cells masked."""
 
 from __future__ import annotations
 

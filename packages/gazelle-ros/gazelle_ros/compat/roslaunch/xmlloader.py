@@ -36,7 +36,7 @@ class XmlLoader:
         argv: Sequence[str] | None = None,
         verbose: bool = True,  # noqa: FBT001, FBT002  # roslaunch's interface
     ) -> None:
-        """Add what a file asks for; ``x:=1`` in `argv`, by default this process's, are arguments.
+        """Add the content of a file; ``x:=1`` in `argv`, by default this process's, are arguments.
 
         Raises:
             XmlParseException: It is malformed.
@@ -58,7 +58,7 @@ class XmlLoader:
         core: bool = False,  # noqa: FBT001, FBT002  # roslaunch's interface
         verbose: bool = True,  # noqa: FBT001, FBT002  # roslaunch's interface
     ) -> None:
-        """Add what a text asks for.
+        """Add the content of a text.
 
         Raises:
             XmlParseException: It is malformed.

@@ -1,4 +1,4 @@
-"""Message classes whose numeric arrays are numpy arrays."""
+"""Message classes with numpy arrays for numeric arrays."""
 
 from __future__ import annotations
 

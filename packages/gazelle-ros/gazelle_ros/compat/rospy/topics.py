@@ -79,7 +79,7 @@ class Topic:
 
 
 class SubscribeListener:
-    """Derive from it to hear of a publisher's subscribers."""
+    """Base class of listeners of a publisher's subscribers."""
 
     def peer_subscribe(
         self,
@@ -134,9 +134,9 @@ class Publisher(Topic):
     Args:
         name: Of the topic.
         data_class: Of the messages.
-        subscriber_listener: Hears of subscribers.
+        subscriber_listener: Called when subscribers come and go.
         tcp_nodelay: Send small packets at once.
-        latch: Send the last message to everybody who connects later.
+        latch: Send the last message to later subscribers.
         headers: More fields for the connection header.
         queue_size: Messages kept for a slow subscriber, the oldest dropped; 0 for all; None to
             wait for slow subscribers.
@@ -197,7 +197,7 @@ class Publisher(Topic):
 
         Raises:
             ROSException: There is no node, or it was shut down.
-            ROSSerializationException: A field holds what its type cannot carry.
+            ROSSerializationException: A field holds a value outside its type.
         """
         impl = self.impl
         node = process.node
@@ -295,7 +295,7 @@ class Subscriber(Topic):
         callback_args: Passed to the callback after the message, if not None.
         queue_size: Messages kept while callbacks are slow, the oldest dropped; None for all.
         buff_size: Accepted, and not needed.
-        tcp_nodelay: Ask publishers to send small packets at once.
+        tcp_nodelay: Request that publishers send small packets at once.
     """
 
     def __init__(

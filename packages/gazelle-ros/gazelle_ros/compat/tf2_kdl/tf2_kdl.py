@@ -1,6 +1,6 @@
 """Teaches tf2's buffers to transform PyKDL's values.
 
-A stamped value is one whose ``header`` was set with ``tf2_ros.Stamped``.
+A stamped value has a ``header`` set with ``tf2_ros.Stamped``.
 """
 
 from __future__ import annotations

@@ -28,7 +28,7 @@ class Concurrence(Container):
         outcome_cb: Called at the end with the outcomes of all states; returns the container's
             outcome, or None.
         child_termination_cb: Called with the outcomes so far when a state ends; where it returns
-            something true, all others are asked to end.
+            something true, all others are preempted.
 
     Raises:
         InvalidStateError: An outcome is not one of the container.
@@ -132,7 +132,7 @@ class Concurrence(Container):
             self._changed.notify_all()
 
     def _wait(self, threads: list[threading.Thread]) -> None:
-        """Wait for the end, ask those that still run to end, and wait for them."""
+        """Wait for the end, preempt those that still run, and wait for them."""
         with self._changed:
             while not self._over and not is_shutdown():
                 self._changed.wait(_LOOK_S)
@@ -144,7 +144,7 @@ class Concurrence(Container):
                 thread.join(_LOOK_S)
 
     def _preempted(self) -> str | None:
-        """Return 'preempted' if it was asked to end, and all states did so."""
+        """Return 'preempted' if it was preempted, and all states ended so."""
         if not self._preempt_requested:
             return None
         late = [label for label, state in self._states.items() if state.preempt_requested()]

@@ -79,7 +79,7 @@ class State:
         self._preempt_requested = False
 
     def preempt_requested(self) -> bool:
-        """Return True if it is asked to end early."""
+        """Return True if a preemption is requested."""
         return self._preempt_requested
 
 

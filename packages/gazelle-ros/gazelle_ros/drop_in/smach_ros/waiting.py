@@ -71,7 +71,7 @@ class MonitorState(State):
 
 
 class ConditionState(State):
-    """Asks a function again and again; ``true`` once that is, ``false`` at the end, or ``preempted``.
+    """Polls a function; ``true`` once that is, ``false`` at the end, or ``preempted``.
 
     Args:
         cond_cb: Called with userdata.

@@ -88,7 +88,7 @@ class LaserScanSectorFilter:
 
 @dataclass(frozen=True, slots=True)
 class LaserScanMaskFilter:
-    """Filter that removes the beams whose numbers a mask of the laser's frame lists."""
+    """Filter that removes the beams listed in a mask of the laser's frame."""
 
     required: ClassVar = ("masks",)
 
