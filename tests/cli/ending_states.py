@@ -55,8 +55,8 @@ STATES: dict[str, list[State]] = {
     "picture": [State("picture turtlebot3_world FOLDER/a.png", 0.5)],
     "plot": [State("plot FOLDER/table.csv FOLDER/a.png", ATHWART)],
     "film": [
-        State("film empty FOLDER/a.gif --for 1e6", "filming", saved="a.gif"),
-        State("film empty FOLDER/a.mp4 --for 1e6 --size 64x64", "filming", saved="a.mp4"),
+        State("film empty FOLDER/a.gif --for 1e5", "filming", saved="a.gif"),
+        State("film empty FOLDER/a.mp4 --for 1e5 --size 64x64", "filming", saved="a.mp4"),
     ],
     "train": [
         State(
