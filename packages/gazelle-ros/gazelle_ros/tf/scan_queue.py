@@ -57,13 +57,14 @@ class MessageQueue:
             waiting = list(self._waiting)
         # Queried before the older ones: transforms come in their order, also while these are worked off. So what
         # is not known then, though this one was, is too old ever to be known.
-        newest = waiting and find(waiting[-1]) is not None
+        newest = find(waiting[-1]) if waiting else None
         done = []
         for message in waiting:
-            found = find(message)
+            found = newest if message is waiting[-1] else None
+            found = find(message) if found is None else found
             if found is not None:
                 use(message, found)
-            elif not newest:
+            elif newest is None:
                 break
             done.append(message)
         with self._news:

@@ -17,7 +17,7 @@ from gazelle_ros.builtin.parameters import settings_of
 from gazelle_ros.builtin.scans.conversion import FramedConversion
 from gazelle_ros.builtin.scans.points import cloud_points, moved
 from gazelle_ros.compat.laser_geometry import LaserProjection
-from gazelle_ros.compat.sensor_msgs.point_cloud2 import create_cloud
+from gazelle_ros.compat.sensor_msgs.point_cloud2 import create_cloud, split_columns
 from gazelle_ros.msgs import sensor_msgs, std_msgs
 from gazelle_ros.node import Node
 from gazelle_ros.tf import StampedTransform
@@ -176,8 +176,6 @@ def cloud_of_scan(
 def _moved(
     cloud: sensor_msgs.msg.PointCloud2, transform: StampedTransform
 ) -> sensor_msgs.msg.PointCloud2:
-    from gazelle_ros.compat.sensor_msgs.point_cloud2 import split_columns
-
     columns = np.stack(list(split_columns(cloud).values()), axis=-1).astype(np.float64)
     columns = columns.reshape(-1, len(cloud.fields))
     columns[:, :3] = moved(transform, columns[:, :3])

@@ -9,6 +9,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from gazelle_ros.base.array_types import Bools, Floats
+from gazelle_ros.clock import SECOND
 from gazelle_ros.msgs import sensor_msgs, std_msgs
 from gazelle_ros.tf import StampedTransform
 from gazelle_ros.time import Time
@@ -79,7 +80,7 @@ class BeamScan:
     @property
     def last_stamp(self) -> int:
         """Time of the last beam [ns]."""
-        return self.stamp + round(max(len(self.ranges) - 1, 0) * self.time_increment * 1e9)
+        return self.stamp + round(max(len(self.ranges) - 1, 0) * self.time_increment * SECOND)
 
     def with_ranges(self, chosen: Bools, value: float) -> BeamScan:
         """Return the scan with another range of some beams."""
@@ -97,7 +98,7 @@ class BeamScan:
         valid = (ranges >= self.range_min) & (ranges < self.range_max)
         away = np.where(valid, ranges, np.nan)
         ends = np.stack([away * np.cos(angles), away * np.sin(angles), 0.0 * away], axis=-1)
-        stamps = self.stamp + np.arange(len(ranges)) * (self.time_increment * 1e9)
+        stamps = self.stamp + np.arange(len(ranges)) * (self.time_increment * SECOND)
         places, turns = self.motions[frame].at(np.asarray(stamps, np.float64))
         axis, real = turns[:, :3], turns[:, 3:]
         turned = ends + 2.0 * np.cross(axis, np.cross(axis, ends) + real * ends)
@@ -131,8 +132,8 @@ class ScanFilter(Protocol):
         """
 
 
-def beam_scan(message: Any, motions: Mapping[str, ScanMotion]) -> BeamScan:
-    """Return a ``LaserScan`` as arrays."""
+def beam_scan(message: Any) -> BeamScan:
+    """Return a ``LaserScan`` as arrays, without motions."""
     return BeamScan(
         ranges=np.asarray(message.ranges, np.float64),
         intensities=np.asarray(message.intensities, np.float64),
@@ -145,5 +146,4 @@ def beam_scan(message: Any, motions: Mapping[str, ScanMotion]) -> BeamScan:
         time_increment=message.time_increment,
         scan_time=message.scan_time,
         frame=message.header.frame_id,
-        motions=motions,
     )

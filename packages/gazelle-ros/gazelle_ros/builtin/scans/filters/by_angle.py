@@ -12,6 +12,7 @@ import numpy as np
 from gazelle_ros.base.errors import RosError
 from gazelle_ros.builtin.scans.filters.beams import BeamScan
 from gazelle_ros.builtin.tuned_settings import tunable
+from gazelle_ros.clock import SECOND
 
 _LOG = logging.getLogger("gazelle.ros.scans")
 _TURN = 2.0 * math.pi
@@ -45,7 +46,7 @@ class LaserScanAngularBoundsFilter:
             intensities=scan.intensities[first:end],
             angle_min=float(kept[0]),
             angle_max=float(kept[-1]),
-            stamp=scan.stamp + round(first * scan.time_increment * 1e9),
+            stamp=scan.stamp + round(first * scan.time_increment * SECOND),
         )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import fields
+from dataclasses import fields, replace
 from typing import Any
 
 from gazelle_ros.base.errors import Error, RosError, did_you_mean
@@ -13,7 +13,7 @@ from gazelle_ros.builtin.arguments import run_node
 from gazelle_ros.builtin.parameters import private_values, warn_of_unknown
 from gazelle_ros.builtin.scans.conversion import StampedWork
 from gazelle_ros.builtin.scans.filters import by_angle, by_neighbours, by_place, by_value, over_time
-from gazelle_ros.builtin.scans.filters.beams import ScanFilter, ScanMotion, beam_scan
+from gazelle_ros.builtin.scans.filters.beams import BeamScan, ScanFilter, ScanMotion, beam_scan
 from gazelle_ros.builtin.tuned_settings import TunedSettings
 from gazelle_ros.msgs import sensor_msgs
 from gazelle_ros.node import Node
@@ -75,7 +75,7 @@ def scan_filter(where: str, given: Any) -> ScanFilter:
     return made
 
 
-class ScanFilterChain(StampedWork[Mapping[str, ScanMotion]]):
+class ScanFilterChain(StampedWork[BeamScan]):
     """Scans of ``scan``, filtered, on ``scan_filtered``.
 
     Args:
@@ -104,32 +104,31 @@ class ScanFilterChain(StampedWork[Mapping[str, ScanMotion]]):
         self._output = node.advertise("scan_filtered", scan, _OUTPUT_QUEUE)
         node.subscribe("scan", scan, self.queue.add, _QUEUE)
 
-    def find(self, message: Any) -> Mapping[str, ScanMotion]:
-        """Return the motions of a scan to the frames of the filters.
+    def find(self, message: Any) -> BeamScan:
+        """Return a scan with its motions to the frames of the filters.
 
         Raises:
             TransformException: One is not known.
         """
-        own, scan = message.header.frame_id.strip("/"), beam_scan(message, {})
+        own, scan = message.header.frame_id.strip("/"), beam_scan(message)
         found = {}
         for frame in self._frames():
             target = frame.strip("/")
             ends = [self.tree.lookup(target, own, each) for each in (scan.stamp, scan.last_stamp)]
             found[frame] = ScanMotion(*ends)
-        return found
+        return replace(scan, motions=found)
 
-    def use(self, message: Any, found: Mapping[str, ScanMotion]) -> None:
+    def use(self, message: Any, found: BeamScan) -> None:  # noqa: ARG002  found holds the scan
         """Publish a scan, filtered.
 
         Raises:
             ValueError: It cannot be filtered.
         """
-        scan = beam_scan(message, found)
         with self._lock:
             filters = list(self.filters)
         for each in filters:
-            scan = each.apply(scan)
-        self._output.publish(scan.message())
+            found = each.apply(found)
+        self._output.publish(found.message())
 
     def _frames(self) -> Collection[str]:
         """Return the frames that transforms are needed to."""
