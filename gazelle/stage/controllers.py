@@ -20,6 +20,7 @@ from gazelle.stage.description.models import StageController
 from gazelle.stage.fleet import StageFleet
 from gazelle.stage.fleet_controller import FleetController
 from gazelle.stage.format.models import known_controllers
+from gazelle.stage.ranger_controller import RangerController
 from gazelle.stage.robots import Ranger, StageRobot
 from gazelle.stage.rounds import Rounds
 from gazelle.stage.wander import Wander
@@ -129,8 +130,8 @@ def _number(text: str, default: float) -> float:
         return default
 
 
-def _make_wander(
-    kind: type[Wander], simulation: StageFleet, wanted: Wanted
+def _make_rangers(
+    kind: type[RangerController], simulation: StageFleet, wanted: Wanted
 ) -> list[FleetController]:
     groups: dict[int, list[tuple[StageRobot, Ranger]]] = {}
     blind = []
@@ -161,7 +162,7 @@ def _make_noise(simulation: StageFleet, wanted: Wanted) -> list[FleetController]
 
 
 _makers: dict[str, Maker] = {
-    "rounds": partial(_make_wander, Rounds),
+    "rounds": partial(_make_rangers, Rounds),
     "lasernoise": _make_noise,
-    "wander": partial(_make_wander, Wander),
+    "wander": partial(_make_rangers, Wander),
 }

@@ -6,10 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Indices, Worlds
-from gazelle.native.system import System
 from gazelle.stage.fleet import StageFleet
+from gazelle.stage.ranger_controller import RangerController
 from gazelle.stage.robots import Ranger, StageRobot
-from gazelle.stage.wander import Wander
 
 _SPEED = 0.8  # [m/s]
 _TURN = 1.0  # [rad/s]
@@ -19,7 +18,7 @@ _ARRIVED = 0.3  # [m]
 _GAP = 0.5  # to what is ahead [m]
 
 
-class Rounds(Wander):
+class Rounds(RangerController):
     """Drives to the place where the next robot of a tour started, and on; waits for who is ahead.
 
     Starting places are free of walls, and a shortest tour crosses itself nowhere, so robots meet only
@@ -61,10 +60,6 @@ class Rounds(Wander):
         commands = simulation.fleet.command.reshape(-1, 3)
         commands[self._bodies, 0], commands[self._bodies, 1] = speed, 0.0
         commands[self._bodies, 2] = np.clip(_GAIN * error, -_TURN, _TURN)
-
-    def systems(self) -> list[System] | None:
-        """Return None: ``update`` is in Python."""
-        return None
 
     def reset(self, worlds: Worlds | None = None) -> None:
         """Start over with the first goals."""

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from gazelle.array_types import Floats, Worlds
 from gazelle.native.system import System
 from gazelle.stage.fleet import StageFleet
-from gazelle.stage.fleet_controller import FleetController
+from gazelle.stage.ranger_controller import RangerController
 from gazelle.stage.robots import Ranger, StageRobot
 from gazelle.stage.wandering import Wandering
 from gazelle.streams import Stream
@@ -22,7 +22,7 @@ PATIENCE = 10  # least updates that it turns for, and how many more it may
 _SHARE = 64  # robots that are worth a thread
 
 
-class Wander(FleetController):
+class Wander(RangerController):
     """Goes ahead until something is near, then turns away from it for a while.
 
     Args:
@@ -34,21 +34,14 @@ class Wander(FleetController):
     def __init__(
         self, simulation: StageFleet, robots: list[tuple[StageRobot, Ranger]], scanner: int
     ) -> None:
-        self._simulation, self._scanner = simulation, scanner
-        self._own = np.array([robot.index for robot, _ in robots], np.int64)
-        self._places = np.array([ranger.places[0][1] for _, ranger in robots], np.int64)
-        self.rebind()
+        super().__init__(simulation, robots, scanner)
         self._mood = np.zeros((len(self._bodies), 2), np.int64)
         key = Stream(simulation.seed, f"wander/{scanner}", 1).keys[0]
         self._seed = int(key >> np.uint64(1))
 
     def rebind(self) -> None:
         """Find the robots and what they see with among all."""
-        simulation = self._simulation
-        worlds = np.arange(simulation.nworld, dtype=np.int64)[:, None]
-        self._bodies = (worlds * simulation.fleet.nbody + self._own).ravel()
-        count = len(simulation.mounts[self._scanner])
-        self._sensors = (worlds * count + self._places).ravel()
+        super().rebind()
         self._made: tuple[Floats, Wandering] | None = None
 
     def update(self) -> None:
