@@ -10,6 +10,7 @@ from gazelle.errors import PlanningError, PlanningWarning
 from gazelle.planning.planner_names import BOUND, planner_of
 from gazelle.planning.state_validity import LONGEST_SEGMENT
 from gazelle_ros.base.real_numbers import real
+from gazelle_ros.builtin.parameters import private_values
 from gazelle_ros.node import Node
 
 PIPELINE = "ompl"
@@ -23,7 +24,7 @@ class PlannerSettings:
     """
 
     def __init__(self, node: Node) -> None:
-        own: Any = node.get_param(node.name, {}) or {}
+        own = private_values(node)
         pipelines = own.get("planning_pipelines")
         inner = pipelines.get(PIPELINE) if isinstance(pipelines, Mapping) else None
         self._said: dict[str, dict[str, str]] = {}

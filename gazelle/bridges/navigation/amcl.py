@@ -28,6 +28,7 @@ from gazelle.simulation import Tunable
 from gazelle_ros.base.parameter_values import value_of
 from gazelle_ros.base.real_numbers import finite
 from gazelle_ros.builtin.arguments import run_node
+from gazelle_ros.builtin.parameters import private_values
 from gazelle_ros.builtin.scans.points import beam_angles
 from gazelle_ros.clock import SECOND
 from gazelle_ros.msgs import geometry_msgs, nav_msgs, sensor_msgs, std_srvs
@@ -57,7 +58,7 @@ class AmclNode:
 
     def __init__(self, node: Node) -> None:
         self._node = node
-        self._values: Mapping[str, Any] = node.get_param(node.name, {}) or {}
+        self._values = private_values(node)
         self.settings = AmclSettings.read(self._values)
         self._odom = value_of(self._values, "odom_frame_id", "odom").strip("/")
         self._base = value_of(self._values, "base_frame_id", "base_link").strip("/")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -20,6 +20,7 @@ from gazelle.navigation.frontiers import Frontier, find_frontiers
 from gazelle_ros.actions import GoalStatus, SimpleActionClient
 from gazelle_ros.base.parameter_values import value_of
 from gazelle_ros.builtin.arguments import run_node
+from gazelle_ros.builtin.parameters import private_values
 from gazelle_ros.clock import SECOND, Rate
 from gazelle_ros.msgs import geometry_msgs, map_msgs, move_base_msgs, nav_msgs, visualization_msgs
 from gazelle_ros.node import Node
@@ -48,7 +49,7 @@ class ExploreNode:
     """
 
     def __init__(self, node: Node) -> None:
-        values: Mapping[str, Any] = node.get_param(node.name, {}) or {}
+        values = private_values(node)
         self.settings = ExploreSettings.read(values)
         self.finished = False
         self._node = node

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import logging
 import threading
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 from gazelle.bridges.conversions import pose_message, pose_of_message, pose_of_transform
 from gazelle.bridges.navigation.diagnosis import StartDiagnosis
@@ -13,6 +12,7 @@ from gazelle.bridges.navigation.frames import GraphFrames, missing_links
 from gazelle.description import Pose
 from gazelle_ros.base.parameter_values import value_of
 from gazelle_ros.builtin.arguments import run_node
+from gazelle_ros.builtin.parameters import private_values
 from gazelle_ros.clock import SECOND
 from gazelle_ros.msgs import geometry_msgs, nav_msgs
 from gazelle_ros.node import Node
@@ -38,7 +38,7 @@ class FakeLocalizationNode:
     """
 
     def __init__(self, node: Node) -> None:
-        values: Mapping[str, Any] = node.get_param(node.name, {}) or {}
+        values = private_values(node)
         self._node = node
         self._odom = value_of(values, "odom_frame_id", "odom").strip("/")
         self._base = value_of(values, "base_frame_id", "base_link").strip("/")

@@ -11,6 +11,7 @@ from gazelle.bridges.conversions import set_point, set_pose, set_twist
 from gazelle.description import Pose
 from gazelle.navigation.estimation.kalman import Estimate
 from gazelle.navigation.estimation.motion import ACCELERATION, ANGULAR, LINEAR, POSE, TWIST
+from gazelle_ros.builtin.diagnostics import OK, WARN, diagnostic_status
 from gazelle_ros.msgs import diagnostic_msgs, geometry_msgs, nav_msgs
 from gazelle_ros.time import Time
 
@@ -69,26 +70,17 @@ def diagnostics_message(
         rate: Estimates per second.
         wanted: The same by its parameter.
     """
-    status, value = diagnostic_msgs.msg.DiagnosticStatus, diagnostic_msgs.msg.KeyValue
+    text = "; ".join(f"{key}: {each}" for key, each in warnings.items()) or "ok"
     slow = rate < (1.0 - _RATE_SLACK) * (wanted - 2.0)
+    rates = {"Actual frequency (Hz)": f"{rate:.3f}", "Target frequency (Hz)": f"{wanted:g}"}
+    found = "Frequency too low." if slow else "Desired frequency met"
     made = diagnostic_msgs.msg.DiagnosticArray(
         status=[
-            status(
-                level=status.WARN if warnings else status.OK,
-                name=f"{name}: Filter diagnostic updater",
-                message="; ".join(f"{key}: {text}" for key, text in warnings.items()) or "ok",
-                hardware_id="none",
-                values=[value(key=key, value=text) for key, text in warnings.items()],
+            diagnostic_status(
+                f"{name}: Filter diagnostic updater", warnings, text, WARN if warnings else OK
             ),
-            status(
-                level=status.WARN if slow else status.OK,
-                name=f"{name}: odometry/filtered topic status",
-                message="Frequency too low." if slow else "Desired frequency met",
-                hardware_id="none",
-                values=[
-                    value(key="Actual frequency (Hz)", value=f"{rate:.3f}"),
-                    value(key="Target frequency (Hz)", value=f"{wanted:g}"),
-                ],
+            diagnostic_status(
+                f"{name}: odometry/filtered topic status", rates, found, WARN if slow else OK
             ),
         ]
     )

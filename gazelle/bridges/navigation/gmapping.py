@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 from gazelle.array_types import Floats
 from gazelle.bridges.navigation.mapping_node import MappingNode
@@ -12,6 +11,7 @@ from gazelle.navigation.following import Pose2
 from gazelle.navigation.mapping import GmappingSettings, GridSlam
 from gazelle_ros.base.parameter_values import value_of
 from gazelle_ros.builtin.arguments import run_node
+from gazelle_ros.builtin.parameters import private_values
 from gazelle_ros.clock import SECOND
 from gazelle_ros.msgs import sensor_msgs, std_msgs
 from gazelle_ros.node import Node
@@ -33,7 +33,7 @@ class GmappingNode(MappingNode):
     """
 
     def __init__(self, node: Node) -> None:
-        values: Mapping[str, Any] = node.get_param(node.name, {}) or {}
+        values = private_values(node)
         self.slam = GridSlam(GmappingSettings.read(values), int(value_of(values, "seed", 0)))
         period = value_of(values, "transform_publish_period", 0.05)
         interval = value_of(values, "map_update_interval", 5.0)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -17,6 +17,7 @@ from gazelle.navigation.planners.planar import composed, inverse
 from gazelle.rotations import from_yaw, yaw_of
 from gazelle_ros.base.parameter_values import value_of
 from gazelle_ros.builtin.arguments import run_node
+from gazelle_ros.builtin.parameters import private_values
 from gazelle_ros.msgs import geometry_msgs, sensor_msgs, std_msgs, std_srvs
 from gazelle_ros.node import Node
 from gazelle_ros.time import Time
@@ -38,7 +39,7 @@ class HectorNode(MappingNode):
     """
 
     def __init__(self, node: Node) -> None:
-        values: Mapping[str, Any] = node.get_param(node.name, {}) or {}
+        values = private_values(node)
         self.slam = HectorSlam(HectorSettings.read(values))
         self._start: Pose2 | None = None
         self._place: Pose2 | None = None

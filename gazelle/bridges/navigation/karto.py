@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -14,6 +13,7 @@ from gazelle.navigation.following import Pose2
 from gazelle.navigation.mapping.karto import KartoSettings, KartoSlam
 from gazelle_ros.base.parameter_values import value_of
 from gazelle_ros.builtin.arguments import run_node
+from gazelle_ros.builtin.parameters import private_values
 from gazelle_ros.msgs import sensor_msgs
 from gazelle_ros.node import Node
 
@@ -34,7 +34,7 @@ class KartoNode(MappingNode):
     """
 
     def __init__(self, node: Node) -> None:
-        values: Mapping[str, Any] = node.get_param(node.name, {}) or {}
+        values = private_values(node)
         self.slam = KartoSlam(KartoSettings.read(values))
         period = value_of(values, "transform_publish_period", 0.05)
         interval = value_of(values, "map_update_interval", 5.0)

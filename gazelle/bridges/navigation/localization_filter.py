@@ -23,19 +23,19 @@ from gazelle.bridges.navigation.transforms import TransformFinder
 from gazelle.navigation.estimation.control import StampedCommand
 from gazelle.navigation.estimation.kalman import (
     PROCESS_NOISE,
-    SECOND,
     Estimate,
     KalmanFilter,
     Prediction,
 )
-from gazelle.navigation.estimation.motion import ANGULAR, POSE, SIZE
+from gazelle.navigation.estimation.motion import ANGULAR, POSE, SIZE, rotated_covariance
 from gazelle.navigation.estimation.prediction import ExtendedPrediction, UnscentedPrediction
 from gazelle.navigation.estimation.sensors import FusionFrames
 from gazelle.navigation.estimation.settings import FilterSettings
 from gazelle.navigation.estimation.timeline import FusionTimeline
 from gazelle_ros.base.parameter_values import value_of
 from gazelle_ros.builtin.arguments import run_node
-from gazelle_ros.clock import Rate
+from gazelle_ros.builtin.parameters import private_values
+from gazelle_ros.clock import SECOND, Rate
 from gazelle_ros.msgs import (
     diagnostic_msgs,
     geometry_msgs,
@@ -92,7 +92,7 @@ class LocalizationFilterNode:
     def __init__(
         self, node: Node, prediction: Callable[[Mapping[str, Any]], Prediction] = _extended
     ) -> None:
-        values: Mapping[str, Any] = node.get_param(node.name, {}) or {}
+        values = private_values(node)
         self.settings = settings = FilterSettings.read(values)
         noise = PROCESS_NOISE if settings.process_noise is None else settings.process_noise
         self.kalman = KalmanFilter(
@@ -275,9 +275,8 @@ class LocalizationFilterNode:
             pose = found * pose_of_message(message.pose.pose)
             state, covariance = np.zeros(SIZE), _SET_VARIANCE * np.eye(SIZE)
             state[POSE] = (*pose.position, *pose.rpy)
-            both = np.kron(np.eye(2), found.matrix()[:3, :3])
             given = np.array(message.pose.covariance, float).reshape(6, 6)
-            covariance[POSE, POSE] = both @ given @ both.T
+            covariance[POSE, POSE] = rotated_covariance(found.matrix()[:3, :3], given)
             now = self._node.clock.now()
             command = self.kalman.estimate.command
             self.kalman.estimate = Estimate(state, covariance, now, command)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import threading
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -17,6 +16,7 @@ from gazelle.bridges.navigation.messages import is_upside_down
 from gazelle.description.occupancy import OccupancyMap
 from gazelle.navigation.following import Pose2
 from gazelle_ros.base.parameter_values import value_of
+from gazelle_ros.builtin.parameters import private_values
 from gazelle_ros.builtin.scans.points import beam_angles
 from gazelle_ros.clock import SECOND
 from gazelle_ros.msgs import nav_msgs, sensor_msgs
@@ -41,7 +41,7 @@ class MappingNode(ABC):
         self, node: Node, base: str, scans: str, interval: float, period: float, ahead: float
     ) -> None:
         self._node = node
-        self._values: Mapping[str, Any] = node.get_param(node.name, {}) or {}
+        self._values = private_values(node)
         self._odom = value_of(self._values, "odom_frame", "odom").strip("/")
         self._base = value_of(self._values, "base_frame", base).strip("/")
         self._whole = value_of(self._values, "map_frame", "map").strip("/")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -25,6 +25,7 @@ from gazelle.navigation.planners.planar import composed
 from gazelle.navigation.planners.plugins import STOP, Velocity
 from gazelle_ros.actions import SimpleActionServer
 from gazelle_ros.builtin.arguments import run_node
+from gazelle_ros.builtin.parameters import private_values
 from gazelle_ros.clock import SECOND, Rate
 from gazelle_ros.msgs import geometry_msgs, move_base_msgs, nav_msgs, std_srvs
 from gazelle_ros.node import Node
@@ -51,7 +52,7 @@ class MoveBaseNode:
 
     def __init__(self, node: Node) -> None:
         self._node = node
-        values: Mapping[str, Any] = node.get_param(node.name, {}) or {}
+        values = private_values(node)
         self.stack = navigation_stack(values)
         self._law = self.stack.move_base
         self._lock = threading.RLock()

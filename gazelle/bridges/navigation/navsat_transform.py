@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import math
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -31,6 +31,7 @@ from gazelle.navigation.estimation.navsat import (
 )
 from gazelle.navigation.estimation.utm import UtmZone
 from gazelle_ros.builtin.arguments import run_node
+from gazelle_ros.builtin.parameters import private_values
 from gazelle_ros.clock import SECOND, Rate
 from gazelle_ros.errors import ServiceError
 from gazelle_ros.msgs import (
@@ -63,7 +64,7 @@ class NavsatTransformNode:
     """
 
     def __init__(self, node: Node) -> None:
-        values: Mapping[str, Any] = node.get_param(node.name, {}) or {}
+        values = private_values(node)
         self.settings = settings = NavsatSettings.read(values)
         self._node, self._lock = node, threading.RLock()
         self._world_frame, self._base, self._gps_frame = "odom", "base_link", ""

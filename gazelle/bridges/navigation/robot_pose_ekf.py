@@ -19,6 +19,7 @@ from gazelle.bridges.navigation.transforms import TransformFinder
 from gazelle.description import Pose
 from gazelle.navigation.estimation.pose_fusion import PoseFusion, PoseFusionSettings
 from gazelle_ros.builtin.arguments import run_node
+from gazelle_ros.builtin.parameters import private_values
 from gazelle_ros.clock import SECOND, Rate
 from gazelle_ros.msgs import geometry_msgs, nav_msgs, robot_pose_ekf, sensor_msgs
 from gazelle_ros.node import Node
@@ -73,7 +74,7 @@ class RobotPoseEkfNode:
     """
 
     def __init__(self, node: Node) -> None:
-        values: Mapping[str, Any] = node.get_param(node.name, {}) or {}
+        values = private_values(node)
         self.settings = settings = PoseFusionSettings.read(values)
         if settings.debug:
             _LOG.warning("the parameter 'debug' is not supported: no files are written")

@@ -21,8 +21,8 @@ from gazelle.navigation.estimation.motion import (
     TWIST,
     wrapped,
 )
+from gazelle_ros.clock import SECOND
 
-SECOND = 1_000_000_000
 PROCESS_NOISE = np.diag(
     (0.05, 0.05, 0.06, 0.03, 0.03, 0.06, 0.025, 0.025, 0.04, 0.01, 0.01, 0.02, 0.01, 0.01, 0.015)
 )

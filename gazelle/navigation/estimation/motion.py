@@ -37,6 +37,13 @@ def rotation(roll: Any, pitch: Any, yaw: Any) -> Floats:
     ))  # fmt: skip
 
 
+def rotated_covariance(turn: Floats, covariance: Floats) -> Floats:
+    """Return a covariance of two vectors, shape (6, 6), after a rotation of both, shape (3, 3)."""
+    both = np.zeros((6, 6))
+    both[:3, :3] = both[3:, 3:] = turn
+    return np.asarray(both @ covariance @ both.T)
+
+
 def angle_rates(roll: Any, pitch: Any, angular: Any) -> Floats:
     """Return the rates of roll, pitch and yaw, shape (3, ...), by an angular velocity of the body.
 

@@ -13,7 +13,7 @@ from gazelle.errors import Error
 from gazelle.navigation.estimation.settings import warn_of_unknown
 from gazelle.navigation.estimation.utm import UtmZone
 from gazelle.sensors.geodesy import TangentPlane
-from gazelle_ros.base.parameter_values import Values, value_of
+from gazelle_ros.base.parameter_values import Values, fields_of, value_of
 from gazelle_ros.base.real_numbers import finite
 
 _OLD = {
@@ -69,15 +69,12 @@ class NavsatSettings:
         Raises:
             Error: One is of the wrong kind.
         """
-        usual = cls()
         plain = [each.name for each in fields(cls) if each.name not in _ELSEWHERE]
         for name in values:
             if name not in (*plain, *_OLD, *_ELSEWHERE):
                 warn_of_unknown(name, [*plain, *_OLD, *_ELSEWHERE])
         values = dict(values) | {new: values[old] for old, new in _OLD.items() if old in values}
-        found: dict[str, Any] = {
-            name: value_of(values, name, getattr(usual, name)) for name in plain
-        }
+        found = fields_of(cls, values, without=_ELSEWHERE)
         if not found["frequency"] > 0.0:
             raise Error(f"'frequency' is positive, not {found['frequency']}")
         frame = "local_enu" if found["use_local_cartesian"] else "utm"

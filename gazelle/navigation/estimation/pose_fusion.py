@@ -8,7 +8,6 @@ estimate becomes vague. All measurements of an update are linear, so they are ad
 from __future__ import annotations
 
 import bisect
-import math
 from collections.abc import Collection
 from dataclasses import dataclass, field, fields
 
@@ -17,10 +16,11 @@ import numpy as np
 from gazelle.array_types import Floats
 from gazelle.description import Pose
 from gazelle.errors import Error
-from gazelle.navigation.estimation.kalman import SECOND
 from gazelle.navigation.estimation.motion import wrapped
 from gazelle.navigation.estimation.settings import warn_of_unknown
-from gazelle_ros.base.parameter_values import Values, value_of
+from gazelle_ros.base.parameter_values import Values, fields_of
+from gazelle_ros.clock import SECOND
+from gazelle_ros.tf.rotations import mix, slerp
 
 _KEPT = 10 * SECOND
 """Age of the oldest pose that is kept [ns]."""
@@ -53,11 +53,11 @@ class PoseFusionSettings:
         Raises:
             Error: One is of the wrong kind, or the frames are the same.
         """
-        usual, names = cls(), [each.name for each in fields(cls)]
+        names = [each.name for each in fields(cls)]
         for name in values:
             if name not in (*names, "tf_prefix"):
                 warn_of_unknown(name, names)
-        made = cls(**{name: value_of(values, name, getattr(usual, name)) for name in names})
+        made = cls(**fields_of(cls, values))
         if made.output_frame == made.base_footprint_frame:
             raise Error(f"output_frame and base_footprint_frame are both '{made.output_frame}'")
         return made
@@ -173,15 +173,10 @@ def _stamp(entry: tuple[int, Pose]) -> int:
 
 def _between(first: Pose, second: Pose, share: float) -> Pose:
     """Return a pose on the way between two, with the rotation at an even rate."""
-    p, q = np.array(first.quaternion), np.array(second.quaternion)
-    q = -q if p @ q < 0.0 else q
-    angle = math.acos(min(float(p @ q), 1.0))
-    weights = math.sin((1.0 - share) * angle), math.sin(share * angle)
-    if angle < 1e-6:
-        weights = 1.0 - share, share
-    begin, end = np.array(first.position), np.array(second.position)
-    turned = weights[0] * p + weights[1] * q
-    return Pose.from_quaternion((begin + share * (end - begin)).tolist(), turned.tolist())
+    return Pose.from_quaternion(
+        mix(first.position, second.position, share),
+        slerp(first.quaternion, second.quaternion, share),
+    )
 
 
 def _measured(

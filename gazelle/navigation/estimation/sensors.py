@@ -13,7 +13,7 @@ import numpy as np
 
 from gazelle.array_types import Bools, Floats
 from gazelle.description import Pose
-from gazelle.navigation.estimation.kalman import SECOND, KalmanFilter, Measurement
+from gazelle.navigation.estimation.kalman import KalmanFilter, Measurement
 from gazelle.navigation.estimation.motion import (
     ACCELERATION,
     ANGLES,
@@ -23,9 +23,11 @@ from gazelle.navigation.estimation.motion import (
     POSITION,
     SIZE,
     TWIST,
+    rotated_covariance,
     rotation,
 )
 from gazelle.navigation.estimation.settings import SourceSettings
+from gazelle_ros.clock import SECOND
 
 _OUT_OF_PLANE = np.array([2, 3, 4, 8, 9, 10, 14])
 _PLANE_VARIANCE = 1e-6
@@ -135,8 +137,8 @@ class VelocitySensor(FusedSensor):
         angular = self._kalman.estimate.state[ANGULAR]
         linear = turn @ velocities[:3] + np.cross(found.position, angular)
         values = np.concatenate((linear, turn @ velocities[3:]))
-        both = _twice(turn)
-        return self._measurement(stamp, TWIST, values, _rotated(both, covariance), used)
+        spread = rotated_covariance(turn, covariance)
+        return self._measurement(stamp, TWIST, values, spread, used)
 
 
 class AccelerationSensor(FusedSensor):
@@ -229,20 +231,20 @@ class PoseSensor(FusedSensor):
         if found is None or below is None:
             return None
         used_turn = rotation(0.0, 0.0, found.yaw) if imu else found.matrix()[:3, :3]
-        covariance = _rotated(_twice(below.matrix()[:3, :3].T), covariance)
+        covariance = rotated_covariance(below.matrix()[:3, :3].T, covariance)
         if imu:
             pose, found = Pose(0.0, 0.0, 0.0, *(pose * found.inverse()).rpy), Pose()
         used = _turned_use(used_turn, self._used, (POSITION, ANGLES))
-        both = _twice(used_turn)
+        covariance = rotated_covariance(used_turn, covariance)
         if self._source.differential:
-            return self._difference(child, stamp, pose, found, _rotated(both, covariance), used)
+            return self._difference(child, stamp, pose, found, covariance, used)
         pose = pose * below
         if self._source.relative:
             self._first = self._first or pose
             pose = self._first.inverse() * pose
         pose = found * pose
         values = np.array((*pose.position, *pose.rpy))
-        return self._measurement(stamp, POSE, values, _rotated(both, covariance), used)
+        return self._measurement(stamp, POSE, values, covariance, used)
 
     def _difference(
         self,
@@ -268,17 +270,6 @@ class PoseSensor(FusedSensor):
         # covariances of published configurations are chosen.
         spread = (covariance + previous[1]) * seconds
         return self._velocity.measure(child, stamp, velocities, spread, shifted)
-
-
-def _twice(turn: Floats) -> Floats:
-    """Return a rotation of two vectors at once, shape (6, 6)."""
-    both = np.zeros((6, 6))
-    both[:3, :3] = both[3:, 3:] = turn
-    return both
-
-
-def _rotated(both: Floats, covariance: Floats) -> Floats:
-    return both @ covariance @ both.T
 
 
 def _turned_use(turn: Floats, used: Bools, parts: tuple[slice, ...]) -> Bools:

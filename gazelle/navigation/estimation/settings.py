@@ -14,7 +14,7 @@ from gazelle.array_types import Bools, Floats
 from gazelle.errors import Error, did_you_mean
 from gazelle.navigation.estimation.control import ControlModel
 from gazelle.navigation.estimation.motion import SIZE
-from gazelle_ros.base.parameter_values import Values, value_of
+from gazelle_ros.base.parameter_values import Values, fields_of, value_of
 from gazelle_ros.base.real_numbers import finite
 
 _LOG = logging.getLogger(__name__)
@@ -132,10 +132,10 @@ class FilterSettings:
         Raises:
             Error: One is of the wrong kind or size, or frames are the same.
         """
-        usual = cls()
         plain = [each.name for each in fields(cls) if not each.kw_only]
+        others = [each.name for each in fields(cls) if each.kw_only]
         _warn_of_unknown(values, plain)
-        found = {name: value_of(values, name, getattr(usual, name)) for name in plain}
+        found = fields_of(cls, values, without=others)
         if not found["frequency"] > 0.0:
             raise Error(f"'frequency' is positive, not {found['frequency']}")
         if found["history_length"] < 0.0:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import MISSING, Field, fields
 from typing import Any
 
@@ -30,8 +30,13 @@ def value_of(values: Values, name: str, default: Any) -> Any:
     raise Error(f"the parameter '{name}' is a {kind.__name__}, not {found!r:.60}")
 
 
-def fields_of(kind: type[Any], values: Values) -> dict[str, Any]:
+def fields_of(kind: type[Any], values: Values, *, without: Collection[str] = ()) -> dict[str, Any]:
     """Return the parameters that a dataclass of settings has, each of the kind of its default.
+
+    Args:
+        kind: The dataclass.
+        values: The parameters.
+        without: Fields that are no such parameters.
 
     Raises:
         Error: One is of another kind.
@@ -39,7 +44,7 @@ def fields_of(kind: type[Any], values: Values) -> dict[str, Any]:
     return {
         each.name: value_of(values, each.name, _default_of(each))
         for each in fields(kind)
-        if each.init
+        if each.init and each.name not in without
     }
 
 

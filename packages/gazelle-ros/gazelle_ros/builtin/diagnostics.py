@@ -34,16 +34,22 @@ class DiagnosticPublisher:
             message: For people.
             level: OK, WARN or ERROR.
         """
-        status = diagnostic_msgs.msg.DiagnosticStatus(
-            level=level,
-            name=self._name,
-            message=message,
-            hardware_id="none",
-            values=[
-                diagnostic_msgs.msg.KeyValue(key=key, value=str(value))
-                for key, value in values.items()
-            ],
-        )
+        status = diagnostic_status(self._name, values, message, level)
         report = diagnostic_msgs.msg.DiagnosticArray(status=[status])
         report.header.stamp = Time(nsecs=self._node.clock.now())
         self._publisher.publish(report)
+
+
+def diagnostic_status(
+    name: str, values: Mapping[str, object], message: str, level: int
+) -> diagnostic_msgs.msg.DiagnosticStatus:
+    """Return a status; see `DiagnosticPublisher.publish`."""
+    return diagnostic_msgs.msg.DiagnosticStatus(
+        level=level,
+        name=name,
+        message=message,
+        hardware_id="none",
+        values=[
+            diagnostic_msgs.msg.KeyValue(key=key, value=str(value)) for key, value in values.items()
+        ],
+    )

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from gazelle_ros.clock import SECOND
 from gazelle_ros.msgs import tf2_msgs
 from gazelle_ros.node import Node
 from gazelle_ros.tf.core import FrameTree, StampedTransform
 from gazelle_ros.tf.errors import TransformException
 from gazelle_ros.tf.taking import take_transforms
 
-_BACK_NS = 1_000_000_000
+_BACK_NS = SECOND
 """A jump back that is longer than this begins time again [ns]."""
 
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from gazelle_ros.builtin.arguments import run_node
 from gazelle_ros.builtin.diagnostics import ERROR, OK, DiagnosticPublisher
 from gazelle_ros.builtin.joysticks.device import FOLDER, LinuxJoystick, joysticks
-from gazelle_ros.builtin.joysticks.state import JoystickState
+from gazelle_ros.builtin.joysticks.state import FULL_SCALE, JoystickState
 from gazelle_ros.builtin.parameters import settings_of
 from gazelle_ros.msgs import sensor_msgs, std_msgs
 from gazelle_ros.node import Node
@@ -22,7 +22,6 @@ _LOG = logging.getLogger("gazelle.ros.joy")
 _RETRY_S = 1.0
 _LOOK_S = 0.2
 _REPORT_S = 1.0
-_RAW = 32767.0
 _WIDEST = 0.9
 
 
@@ -175,7 +174,7 @@ def _deadzone_of(settings: JoySettings) -> float:
     found = settings.deadzone
     if found >= 1.0:
         _LOG.warning("a deadzone of %g is taken for %g / 32767: it is a part of 1", found, found)
-        found /= _RAW
+        found /= FULL_SCALE
     allowed = min(max(found, 0.0), _WIDEST)
     if allowed != found:
         _LOG.warning("a deadzone of %g is taken for %g", found, allowed)

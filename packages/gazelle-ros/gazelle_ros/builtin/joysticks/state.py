@@ -6,7 +6,8 @@ from dataclasses import dataclass, field
 
 from gazelle_ros.builtin.joysticks.device import JoystickEvent
 
-_FULL = 32767.0
+FULL_SCALE = 32767.0
+"""Greatest raw value of an axis."""
 
 
 @dataclass(slots=True)
@@ -43,6 +44,6 @@ class JoystickState:
 
     def scaled(self, value: int) -> float:
         """Return an axis from a raw value: 0 in the dead zone, and from there on linear to 1."""
-        dead = self.deadzone * _FULL
-        beyond = max(abs(value) - dead, 0.0) / (_FULL - dead)
+        dead = self.deadzone * FULL_SCALE
+        beyond = max(abs(value) - dead, 0.0) / (FULL_SCALE - dead)
         return -beyond if value > 0 else beyond
