@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Bools, Floats
+from gazelle.engines.limits import NANOSECONDS
 from gazelle.navigation.estimation.control import ControlModel, StampedCommand
 from gazelle.navigation.estimation.motion import (
     ACCELERATION,
@@ -21,7 +22,6 @@ from gazelle.navigation.estimation.motion import (
     TWIST,
     wrapped,
 )
-from gazelle_ros.clock import SECOND
 
 PROCESS_NOISE = np.diag(
     (0.05, 0.05, 0.06, 0.03, 0.03, 0.06, 0.025, 0.025, 0.04, 0.01, 0.01, 0.02, 0.01, 0.01, 0.015)
@@ -148,7 +148,7 @@ class KalmanFilter:
     def predict(self, stamp: int) -> None:
         """Move the estimate on to a time [ns]."""
         before = self.estimate
-        seconds = (stamp - before.stamp) / SECOND
+        seconds = (stamp - before.stamp) / NANOSECONDS
         if seconds > _LONGEST_STEP_S:
             seconds = _SHORT_STEP_S  # the clock began between the two
         state = self._controlled(before.state, stamp, seconds)
@@ -170,7 +170,7 @@ class KalmanFilter:
         if self._control is None:
             return state
         command = self.estimate.command
-        late = abs(stamp - command.stamp) >= self._control.timeout * SECOND
+        late = abs(stamp - command.stamp) >= self._control.timeout * NANOSECONDS
         wanted = np.zeros(6) if late else command.velocities
         caused = self._control.acceleration(state, wanted)
         state = state.copy()

@@ -15,14 +15,14 @@ import numpy as np
 
 from gazelle.array_types import Floats
 from gazelle.description import Pose
+from gazelle.engines.limits import NANOSECONDS
 from gazelle.errors import Error
 from gazelle.navigation.estimation.motion import wrapped
 from gazelle.navigation.estimation.settings import warn_of_unknown
 from gazelle_ros.base.parameter_values import Values, fields_of
-from gazelle_ros.clock import SECOND
-from gazelle_ros.tf.rotations import mix, slerp
+from gazelle_ros.base.rotations import mix, slerp
 
-_KEPT = 10 * SECOND
+_KEPT = 10 * NANOSECONDS
 """Age of the oldest pose that is kept [ns]."""
 _FORGOTTEN = 1e6 * np.eye(6)
 """Added to the covariance before each update [m^2 and rad^2]."""
@@ -142,7 +142,7 @@ class PoseFusion:
         poses = {name: self._tracks[name].at(stamp) for name in sensors}
         if None in poses.values():
             return False
-        scale = ((stamp - self.stamp) / SECOND) ** 2
+        scale = ((stamp - self.stamp) / NANOSECONDS) ** 2
         state = np.array((*self.pose.position, *self.pose.rpy))
         information = np.linalg.inv(self.covariance + _FORGOTTEN)
         vector = np.zeros(6)

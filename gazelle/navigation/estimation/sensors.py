@@ -13,6 +13,7 @@ import numpy as np
 
 from gazelle.array_types import Bools, Floats
 from gazelle.description import Pose
+from gazelle.engines.limits import NANOSECONDS
 from gazelle.navigation.estimation.kalman import KalmanFilter, Measurement
 from gazelle.navigation.estimation.motion import (
     ACCELERATION,
@@ -27,7 +28,6 @@ from gazelle.navigation.estimation.motion import (
     rotation,
 )
 from gazelle.navigation.estimation.settings import SourceSettings
-from gazelle_ros.clock import SECOND
 
 _OUT_OF_PLANE = np.array([2, 3, 4, 8, 9, 10, 14])
 _PLANE_VARIANCE = 1e-6
@@ -259,7 +259,7 @@ class PoseSensor(FusedSensor):
         previous, self._previous = self._previous, (pose, covariance, stamp)
         if previous is None or stamp <= previous[2]:
             return None
-        seconds = (stamp - previous[2]) / SECOND
+        seconds = (stamp - previous[2]) / NANOSECONDS
         change = Pose.from_quaternion((0.0, 0.0, 0.0), found.quaternion) * (
             previous[0].inverse() * pose
         )

@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.stats import chi2
 
+from gazelle.engines.limits import NANOSECONDS
 from gazelle.errors import Error
 from gazelle.navigation.estimation import (
     ControlModel,
@@ -17,7 +18,7 @@ from gazelle.navigation.estimation import (
     StampedCommand,
     UnscentedPrediction,
 )
-from gazelle.navigation.estimation.kalman import PROCESS_NOISE, SECOND
+from gazelle.navigation.estimation.kalman import PROCESS_NOISE
 
 KINDS = [ExtendedPrediction, UnscentedPrediction]
 
@@ -27,7 +28,7 @@ def measured(elements, stamp, threshold=np.inf, variance=0.01):
     values, used = np.zeros(15), np.zeros(15, bool)
     values[list(elements)], used[list(elements)] = list(elements.values()), True
     return Measurement(
-        "test", round(stamp * SECOND), values, variance * np.eye(15), used, threshold
+        "test", round(stamp * NANOSECONDS), values, variance * np.eye(15), used, threshold
     )
 
 
@@ -133,7 +134,7 @@ def test_the_first_measurement_sets_what_it_measures():
     kalman = KalmanFilter(ExtendedPrediction(), initial_state=np.arange(15.0))
     assert kalman.process(measured({0: 7.0, 5: np.nan}, 3.0))
     assert kalman.estimate.state.tolist() == [7.0, *range(1, 15)]
-    assert kalman.estimate.stamp == 3 * SECOND
+    assert kalman.estimate.stamp == 3 * NANOSECONDS
     assert kalman.estimate.covariance[0, 0] == 0.01
     assert kalman.estimate.covariance[5, 5] == 1e-9
 
@@ -161,7 +162,7 @@ def test_an_old_measurement_corrects_without_a_prediction():
     kalman = KalmanFilter(ExtendedPrediction())
     kalman.process(measured({0: 0.0, 6: 1.0}, 5.0))
     kalman.process(measured({0: 1.0}, 4.0))
-    assert kalman.estimate.stamp == 5 * SECOND
+    assert kalman.estimate.stamp == 5 * NANOSECONDS
     assert kalman.estimate.state[0] == pytest.approx(0.5)
 
 
@@ -169,7 +170,7 @@ def test_dynamic_noise_stops_growing_at_rest():
     def grown(speed):
         kalman = KalmanFilter(ExtendedPrediction(), dynamic_noise=True)
         kalman.process(measured({6: speed}, 0.0, variance=1e-9))
-        kalman.predict(SECOND // 1000)
+        kalman.predict(NANOSECONDS // 1000)
         return kalman.estimate.covariance[1, 1]
 
     assert grown(0.0) == pytest.approx(1e-9, rel=0.1)
@@ -181,12 +182,12 @@ def test_commands_accelerate_within_limits_and_brake_when_late():
     model = ControlModel(used, timeout=0.5, acceleration_limits=np.full(6, 0.4))
     kalman = KalmanFilter(ExtendedPrediction(), control=model)
     kalman.process(measured({6: 1.0, 11: 0.0}, 10.0))
-    kalman.command(StampedCommand(np.array([2.0, 3.0, 0, 0, 0, 0.2]), 10 * SECOND))
-    kalman.predict(10 * SECOND + SECOND // 10)
+    kalman.command(StampedCommand(np.array([2.0, 3.0, 0, 0, 0, 0.2]), 10 * NANOSECONDS))
+    kalman.predict(10 * NANOSECONDS + NANOSECONDS // 10)
     state = kalman.estimate.state
     assert state[6] == pytest.approx(1.04)  # 0.1 s at the limit
     assert state[11] == pytest.approx(0.02)  # 0.1 s of gain 1 times what is missing
-    kalman.predict(11 * SECOND)  # the command is late: it brakes at the usual limit of 1
+    kalman.predict(11 * NANOSECONDS)  # the command is late: it brakes at the usual limit of 1
     assert kalman.estimate.state[12] == pytest.approx(-1.0)
 
 

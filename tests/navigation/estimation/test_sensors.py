@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gazelle.description import Pose
+from gazelle.engines.limits import NANOSECONDS
 from gazelle.navigation.estimation import ExtendedPrediction, KalmanFilter, Measurement
-from gazelle.navigation.estimation.kalman import SECOND
 from gazelle.navigation.estimation.sensors import (
     AccelerationSensor,
     FusionFrames,
@@ -80,8 +80,8 @@ def test_differences_of_poses_are_velocities_of_the_robot():
     made = sensor(PoseSensor, "odom", {}, used=only(0, 1, 5), differential=True)
     at = Pose(x=5.0, y=2.0, yaw=1.0)
     spread = 0.02 * np.eye(6)
-    assert made.measure("elsewhere", "base", SECOND, at, spread) is None
-    found = made.measure("elsewhere", "base", 2 * SECOND, at * Pose(x=0.3, yaw=0.2), spread)
+    assert made.measure("elsewhere", "base", NANOSECONDS, at, spread) is None
+    found = made.measure("elsewhere", "base", 2 * NANOSECONDS, at * Pose(x=0.3, yaw=0.2), spread)
     np.testing.assert_allclose(found.values[6:12], [0.3, 0, 0, 0, 0, 0.2], atol=1e-12)
     assert np.flatnonzero(found.used).tolist() == [6, 7, 11]
     assert found.covariance[6, 6] == pytest.approx(0.04)

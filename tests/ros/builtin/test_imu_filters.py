@@ -12,6 +12,7 @@ from ros.graph import until
 
 from gazelle_ros import Time
 from gazelle_ros.base.errors import Error
+from gazelle_ros.base.rotations import conjugate, multiply, rotate
 from gazelle_ros.builtin.imu.complementary import ComplementaryFilter, trust
 from gazelle_ros.builtin.imu.madgwick import (
     WORLD_FRAMES,
@@ -23,7 +24,6 @@ from gazelle_ros.builtin.imu.node import ComplementaryNode, MadgwickNode
 from gazelle_ros.builtin.imu.quaternions import unit, unit_quaternion
 from gazelle_ros.clock import SECOND, SimulatedClock
 from gazelle_ros.msgs import geometry_msgs, sensor_msgs, std_msgs, tf2_msgs
-from gazelle_ros.tf.rotations import conjugate, multiply, rotate
 
 NUMBER = st.floats(-1.0, 1.0)
 IMU, FIELD = sensor_msgs.msg.Imu, sensor_msgs.msg.MagneticField

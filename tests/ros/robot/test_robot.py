@@ -9,10 +9,10 @@ import pytest
 from ros.graph import until
 
 from gazelle_ros.base.errors import RosError
+from gazelle_ros.base.rotations import rotate
 from gazelle_ros.builtin.registry import main_of
 from gazelle_ros.messages import load_message
 from gazelle_ros.robot import JointStatePublisher, RobotStatePublisher, read_joints
-from gazelle_ros.tf.rotations import rotate
 from gazelle_ros.time import Time
 
 ROBOT = """

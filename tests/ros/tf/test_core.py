@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from gazelle_ros.base.rotations import conjugate, multiply, rotate, slerp
 from gazelle_ros.tf import (
     ConnectivityException,
     ExtrapolationException,
@@ -17,7 +18,6 @@ from gazelle_ros.tf import (
     TransformException,
 )
 from gazelle_ros.tf.describe import as_dot, as_yaml
-from gazelle_ros.tf.rotations import conjugate, multiply, rotate, slerp
 
 S = 1_000_000_000
 STILL = (0.0, 0.0, 0.0, 1.0)

@@ -8,10 +8,10 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from gazelle_ros.base.rotations import Quaternion, Vector, add, matrix, multiply, rotate
 from gazelle_ros.compat.tf2_ros.buffer_interface import ConvertRegistration, TransformRegistration
 from gazelle_ros.messages import Message
 from gazelle_ros.msgs import geometry_msgs
-from gazelle_ros.tf.rotations import Quaternion, Vector, add, matrix, multiply, rotate
 
 _StampedT = TypeVar(
     "_StampedT",

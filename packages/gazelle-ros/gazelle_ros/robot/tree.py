@@ -6,9 +6,9 @@ import math
 from dataclasses import dataclass
 
 from gazelle_ros.base.errors import RosError
+from gazelle_ros.base.rotations import IDENTITY, ORIGIN, Quaternion, Vector, add, multiply, rotate
 from gazelle_ros.launch.document import Element, parse_element
 from gazelle_ros.launch.errors import LaunchError
-from gazelle_ros.tf.rotations import IDENTITY, ORIGIN, Quaternion, Vector, add, multiply, rotate
 
 _TURNING = frozenset({"revolute", "continuous"})
 _KINDS = _TURNING | {"prismatic", "fixed", "floating", "planar"}

@@ -6,7 +6,7 @@ from bisect import bisect_left, bisect_right
 from dataclasses import dataclass
 from typing import Protocol
 
-from gazelle_ros.tf.rotations import Quaternion, Vector, mix, slerp
+from gazelle_ros.base.rotations import Quaternion, Vector, mix, slerp
 
 _COMPACT = 256
 

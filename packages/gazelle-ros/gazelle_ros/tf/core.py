@@ -12,16 +12,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from gazelle_ros.tf.cache import FrameCache, MovingCache, OutsideError, ParentTransform, StaticCache
-from gazelle_ros.tf.errors import (
-    ConnectivityException,
-    ExtrapolationException,
-    InvalidArgumentException,
-    LookupException,
-    TransformException,
-)
-from gazelle_ros.tf.faults import name_fault, placement_fault
-from gazelle_ros.tf.rotations import (
+from gazelle_ros.base.rotations import (
     IDENTITY,
     ORIGIN,
     Quaternion,
@@ -36,6 +27,15 @@ from gazelle_ros.tf.rotations import (
     quaternion,
     rotate,
 )
+from gazelle_ros.tf.cache import FrameCache, MovingCache, OutsideError, ParentTransform, StaticCache
+from gazelle_ros.tf.errors import (
+    ConnectivityException,
+    ExtrapolationException,
+    InvalidArgumentException,
+    LookupException,
+    TransformException,
+)
+from gazelle_ros.tf.faults import name_fault, placement_fault
 
 _LOG = logging.getLogger("gazelle.ros.tf")
 _MAX_DEPTH = 1000

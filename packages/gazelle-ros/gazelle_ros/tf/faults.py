@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from gazelle_ros.tf.rotations import Quaternion, Vector
+from gazelle_ros.base.rotations import Quaternion, Vector
 
 _NORM_TOLERANCE = 10e-3
 

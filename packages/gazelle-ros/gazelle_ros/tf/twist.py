@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
+from gazelle_ros.base.rotations import Vector, add, conjugate, minus, multiply, rotate
 from gazelle_ros.tf.core import FrameTree
-from gazelle_ros.tf.rotations import Vector, add, conjugate, minus, multiply, rotate
 
 _SECOND = 1e-9
 _FIRST_NS = 10_000

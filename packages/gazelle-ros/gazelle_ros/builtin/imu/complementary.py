@@ -9,8 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from gazelle_ros.builtin.imu.quaternions import about_z, advanced, rate, unit, unit_quaternion
-from gazelle_ros.tf.rotations import (
+from gazelle_ros.base.rotations import (
     Quaternion,
     Vector,
     add,
@@ -19,6 +18,7 @@ from gazelle_ros.tf.rotations import (
     multiply,
     rotate,
 )
+from gazelle_ros.builtin.imu.quaternions import about_z, advanced, rate, unit, unit_quaternion
 
 GRAVITY = 9.81
 _STILL_ACCELERATION = 0.1

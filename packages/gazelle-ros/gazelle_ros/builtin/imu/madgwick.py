@@ -9,8 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from gazelle_ros.builtin.imu.quaternions import advanced, rate, unit, unit_quaternion
-from gazelle_ros.tf.rotations import (
+from gazelle_ros.base.rotations import (
     IDENTITY,
     Matrix,
     Quaternion,
@@ -22,6 +21,7 @@ from gazelle_ros.tf.rotations import (
     quaternion,
     rotate,
 )
+from gazelle_ros.builtin.imu.quaternions import advanced, rate, unit, unit_quaternion
 
 GRAVITY = 9.80665
 _WORLDS: dict[str, tuple[Vector, Vector]] = {

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from gazelle_ros.base.errors import RosError, did_you_mean
+from gazelle_ros.base.rotations import Quaternion, Vector, conjugate, multiply
 from gazelle_ros.builtin.arguments import CallbackWork, run_node
 from gazelle_ros.builtin.imu.complementary import ComplementaryFilter
 from gazelle_ros.builtin.imu.madgwick import (
@@ -25,7 +26,6 @@ from gazelle_ros.clock import SECOND
 from gazelle_ros.compat.message_filters import ApproximateTimeSynchronizer, SimpleFilter
 from gazelle_ros.msgs import geometry_msgs, sensor_msgs, tf2_msgs
 from gazelle_ros.node import Node
-from gazelle_ros.tf.rotations import Quaternion, Vector, conjugate, multiply
 
 _LOG = logging.getLogger("gazelle.ros.imu")
 _QUEUE = 5

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from gazelle_ros.tf.rotations import IDENTITY, Quaternion, Vector, multiply
+from gazelle_ros.base.rotations import IDENTITY, Quaternion, Vector, multiply
 
 _LEAST = 1e-12
 

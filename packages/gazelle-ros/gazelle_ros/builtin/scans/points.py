@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from gazelle_ros.base.array_types import Floats
+from gazelle_ros.base.rotations import matrix
 from gazelle_ros.compat.sensor_msgs.point_cloud2 import split_columns
 from gazelle_ros.msgs import sensor_msgs
 from gazelle_ros.tf import StampedTransform
-from gazelle_ros.tf.rotations import matrix
 
 
 def cloud_points(cloud: sensor_msgs.msg.PointCloud2) -> Floats:

@@ -6,9 +6,9 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from gazelle_ros.base import rotations
 from gazelle_ros.compat.PyKDL.motion import Twist, Wrench
 from gazelle_ros.compat.PyKDL.vector import EPSILON, Vector, close, row
-from gazelle_ros.tf import rotations
 
 _POLE = 1e-12
 """Distance from a pole at which two angles cannot be distinguished."""

@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Any, overload
 
-from gazelle_ros.tf import rotations
+from gazelle_ros.base import rotations
 
 EPSILON = 1e-6
 """Tolerance of equal values."""
