@@ -14,13 +14,22 @@ if TYPE_CHECKING:
     from gazelle.training import Evaluation, SuccessRate, TrainResult
 
 
+_WIDEST_NAME = 30
+"""Characters of a name that a text stands beside; below a longer one, as in argparse's help."""
+
+
 def table(rows: Sequence[Sequence[str]], width: int = 80) -> str:
     """Return rows in aligned columns, each line ended; a long last column is wrapped at spaces."""
     columns = [max(len(cell) for cell in column) for column in zip(*rows, strict=True)][:-1]
+    if len(columns) == 1:
+        columns = [min(columns[0], _WIDEST_NAME)]
     indent = sum(columns) + 2 * len(columns)
     lines: list[str] = []
     for row in rows:
         head = "".join(f"{cell:<{size + 2}}" for cell, size in zip(row, columns, strict=False))
+        if any(len(cell) > size for cell, size in zip(row, columns, strict=False)):
+            lines.append(head.rstrip())
+            head = " " * indent
         lines += textwrap.wrap(
             row[-1],
             width=max(width, indent + 20),
@@ -49,7 +58,7 @@ def evaluation(result: Evaluation) -> str:
 def rate(value: SuccessRate | None) -> str:
     """Return a rate as ``97.0 % (95 % interval 91.5 to 99.0 %, 97 of 100)``."""
     if value is None:
-        return "not told by this task"
+        return "not reported by this task"
     low, high = value.interval
     return (
         (

@@ -15,6 +15,17 @@ def test_tables_wrap_their_last_column_and_break_no_path():
     assert any(path in line for line in lines)
 
 
+def test_the_text_of_a_long_name_is_below_it():
+    text = showing.table([("NAME", "WHAT"), ("n" * 31, "word " * 15), ("short", "text")])
+    assert text.splitlines() == [
+        f"{'NAME':<32}WHAT",
+        "n" * 31,
+        " " * 32 + " ".join(["word"] * 9),
+        " " * 32 + " ".join(["word"] * 6),
+        f"{'short':<32}text",
+    ]
+
+
 @pytest.mark.parametrize(
     ("seconds", "text"), [(45, "45.0 s"), (750, "12.5 min"), (100_000, "27.8 h")]
 )
@@ -36,7 +47,7 @@ def test_evaluation_fits_80_columns():
     )  # fmt: skip
     text = showing.evaluation(result)
     assert max(len(line) for line in text.splitlines()) <= 80
-    assert "not told by this task" in text
+    assert "not reported by this task" in text
     assert f"RTF {1e7 / 1234.5:,.0f}" in text
 
 
