@@ -3,7 +3,7 @@ A file that can be read is also built with the engine and its plugins.
 
   gazelle check my.world my_robot.urdf.xacro
   gazelle check --urdf my_robot.urdf my_robot.srdf my_controllers.yaml
-  gazelle check my_robot.launch model:=burger    # is every node there?
+  gazelle check my_robot.launch model:=burger    # its nodes, world and robots
   gazelle check --json my.world > findings.json
 
 The exit code is 1 if there is any error; warnings alone leave it 0.
@@ -16,21 +16,13 @@ import json
 import shutil
 import sys
 import textwrap
-import warnings
 from collections import Counter
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gazelle.cli.progress_line import ProgressLine
-from gazelle.errors import (
-    ControlError,
-    Error,
-    FormatWarning,
-    GazelleWarning,
-    PluginWarning,
-    describe,
-)
+from gazelle.errors import Error, describe
 
 if TYPE_CHECKING:
     from gazelle.formats import Problem
@@ -55,18 +47,20 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Run the command; returns the exit code."""
     from gazelle.cli.check_launch import check_launch, is_launch
+    from gazelle.cli.file_checks import check_file
     from gazelle_ros.names import split_arguments
 
     words, arguments = split_arguments(args.files)
     if not words:
         raise Error("there is no file to check", hint="arg:=value goes with a launch file")
+    engine = None if args.files_only else args.engine
     lists: dict[str, list[str]] = {}
     judged: dict[str, list[Problem]] = {}
     for file in ProgressLine("checking", len(words), "files").count(words):
         if is_launch(file):
-            lists[file], judged[file] = check_launch(file, arguments)
+            lists[file], judged[file] = check_launch(file, arguments, engine)
         else:
-            judged[file] = _judge(file, args)
+            judged[file] = check_file(file, engine, urdf=args.urdf)
     if args.json:
         rows = [{"path": file, **asdict(each)} for file, found in judged.items() for each in found]
         sys.stdout.write(json.dumps(rows, indent=2) + "\n")
@@ -75,25 +69,6 @@ def run(args: argparse.Namespace) -> int:
             sys.stdout.writelines(f"{line}\n" for line in lists.get(file, ()))
             _show(file, found)
     return 1 if any(each.severity == "error" for found in judged.values() for each in found) else 0
-
-
-def _judge(file: str, args: argparse.Namespace) -> list[Problem]:
-    """Return the findings about one file."""
-    from gazelle.control.checking import check_controllers, is_controllers
-    from gazelle.formats import check
-    from gazelle.formats.check import TOLERATED, is_semantic
-
-    if is_controllers(Path(file)):
-        if args.urdf is None:
-            raise ControlError(f"{file} holds controllers", hint="name their robot: --urdf FILE")
-        return check_controllers(file, args.urdf)
-    found = check(file, urdf=args.urdf)
-    if is_semantic(Path(file)):
-        return found
-    stopped = any(each.severity == "error" and each.rule != TOLERATED for each in found)
-    if not args.files_only and not stopped:
-        found += _build(file, args.engine)
-    return found
 
 
 def _show(file: str, found: list[Problem]) -> None:
@@ -142,27 +117,6 @@ def _write(text: str, indent: str) -> None:
             text, width, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
         )
     sys.stdout.write("\n".join(lines) + "\n")
-
-
-def _build(file: str, engine: str) -> list[Problem]:
-    """Return the problems that the engine and the plugins report."""
-    from gazelle.formats import Problem
-    from gazelle.simulation import Simulation
-
-    found: list[Problem] = []
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
-        try:
-            Simulation(file, engine).close()
-        except Error as error:
-            found.append(Problem.of(error))
-    for warning in caught:
-        # What the files hold was reported by `gazelle.formats.check` already.
-        ours = issubclass(warning.category, GazelleWarning)
-        failed = issubclass(warning.category, PluginWarning)
-        if ours and not issubclass(warning.category, FormatWarning):
-            found.append(Problem("error" if failed else "warning", str(warning.message)))
-    return found
 
 
 def _count(number: int, name: str) -> str:

@@ -1,4 +1,4 @@
-"""Check of a launch file: each node that it starts, and whether its program is there."""
+"""Check of a launch file: the program of each node, and the worlds and robots that they load."""
 
 from __future__ import annotations
 
@@ -21,17 +21,21 @@ def is_launch(file: str) -> bool:
     return file.endswith(SUFFIXES) and Path(file).is_file()
 
 
-def check_launch(file: str, arguments: Mapping[str, str]) -> tuple[list[str], list[Problem]]:
-    """Read a launch file, and look for the program of each node.
+def check_launch(
+    file: str, arguments: Mapping[str, str], engine: str | None
+) -> tuple[list[str], list[Problem]]:
+    """Read a launch file, look for the program of each node, and check what the nodes load.
 
     Args:
         file: Launch file.
         arguments: Values of its ``<arg>`` elements.
+        engine: Builds its worlds and robots; None reads them only.
 
     Returns:
-        A line for each program, and the problems: an error for each node without one, and a
-        warning for each that is left out on purpose.
+        A line for each program, and the problems: an error for each node without one, a warning
+        for each that is left out on purpose, and those of the worlds and robots.
     """
+    from gazelle.cli.launched_files import LaunchedFiles
     from gazelle_ros.launch import Packages, load_launch
 
     packages = Packages()
@@ -48,6 +52,7 @@ def check_launch(file: str, arguments: Mapping[str, str]) -> tuple[list[str], li
         lines.append(f"  {_label(node):<{width}}  {state}")
         if problem is not None:
             problems.append(problem)
+    problems += LaunchedFiles(plan, packages, engine).check()
     return list(dict.fromkeys(lines)), problems
 
 

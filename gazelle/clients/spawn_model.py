@@ -36,7 +36,7 @@ _log = logging.getLogger("gazelle.clients")
 def main(arguments: Sequence[str]) -> int:
     """Spawn a model; returns 0 if it is there, else 1."""
     found = parse_arguments(arguments, "spawn_model", anonymous=True)
-    options = _options(found.plain)
+    options = parse_options(found.plain)
     with _speaking(), found.start() as node:
         spawner = _Spawner(node, options)
         try:
@@ -149,7 +149,8 @@ class _Spawner:
             self._node.wait_for_service(name)
 
 
-def _options(arguments: Sequence[str]) -> argparse.Namespace:
+def parse_options(arguments: Sequence[str]) -> argparse.Namespace:
+    """Parse the command line of ``spawn_model``."""
     parser = NumberParser(
         "spawn_model", description="Put a model into a running world.", allow_abbrev=False
     )

@@ -8,7 +8,7 @@ from gazelle.native import search_path
 
 __path__ = search_path([str(Path(__file__).parent)])
 
-from gazelle.formats.check import Problem, check
+from gazelle.formats.check import Problem, check, check_string
 from gazelle.formats.loader import load, load_model, load_model_string, load_string
 from gazelle.formats.mesh import load_mesh
 from gazelle.formats.occupancy import load_map
@@ -26,6 +26,7 @@ __all__ = [
     "Problem",
     "Resolver",
     "check",
+    "check_string",
     "load",
     "load_map",
     "load_mesh",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -12,7 +12,7 @@ from gazelle.description import Source
 from gazelle.errors import Error
 from gazelle.formats import srdf, xml
 from gazelle.formats.lint import Diagnostic, lint, semantics
-from gazelle.formats.loader import PathLike, find_file, read_path
+from gazelle.formats.loader import PathLike, find_file, read_path, read_text
 from gazelle.formats.reading import Note, Reading
 from gazelle.formats.resolve import Resolver
 from gazelle.formats.urdf.tree import read_tree
@@ -69,16 +69,39 @@ def check(
         urdf: The robot that an SRDF is for, whose links and joints it must name.
     """
     reading = Reading(Resolver(paths), xacro_args=dict(xacro_args or {}))
+
+    def judge() -> list[Problem]:
+        file = find_file(path, reading)
+        if is_semantic(file):
+            return _check_semantics(file, urdf, reading)
+        return [_problem_of(finding) for finding in lint(read_path(file, reading))]
+
+    name = os.fspath(path) if isinstance(path, str | os.PathLike) else None
+    return _found(reading, judge, name)
+
+
+def check_string(text: str, *, name: str = "string") -> list[Problem]:
+    """Load SDF, URDF, xacro or Stage text and list its problems, errors first.
+
+    Args:
+        text: As for ``load_string``.
+        name: Stands for the file in the problems.
+    """
+    reading = Reading(Resolver())
+
+    def judge() -> list[Problem]:
+        return [_problem_of(finding) for finding in lint(read_text(text, name, reading))]
+
+    return _found(reading, judge, name)
+
+
+def _found(reading: Reading, judge: Callable[[], list[Problem]], name: str | None) -> list[Problem]:
+    """Return all problems of one load; ``name`` stands for the file of an error without one."""
     problems: list[Problem] = []
     judged: list[Problem] = []
     try:
-        file = find_file(path, reading)
-        if is_semantic(file):
-            judged = _check_semantics(file, urdf, reading)
-        else:
-            judged = [_problem_of(finding) for finding in lint(read_path(file, reading))]
+        judged = judge()
     except Error as error:
-        name = os.fspath(path) if isinstance(path, str | os.PathLike) else None
         problems.append(Problem.of(error, name))
     problems += [_noted(note) for note in reading.notes if note.severity == "error"]
     problems += [

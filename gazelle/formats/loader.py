@@ -102,18 +102,25 @@ def load_string(
     if not isinstance(text, str | bytes):
         raise FormatError(f"text is a string or bytes, not {text!r}", hint="load() reads files")
     reading = _reading(paths, xacro_args)
+    world = read_text(text, name, reading)
+    reading.report(strict=strict)
+    return world
+
+
+def read_text(text: str | bytes, name: str, reading: Reading) -> World:
+    """Return the world in SDF, URDF, xacro or Stage text; ``name`` stands for the file in errors.
+
+    Raises:
+        FormatError: The text cannot be read, or says something that cannot be.
+    """
     data = text.encode(errors="surrogatepass") if isinstance(text, str) else text
     own = find_world_format(data)
     if own is not None:
-        world = own.read(data, name, reading)
-        reading.report(strict=strict)
-        return world
+        return own.read(data, name, reading)
     root = xml.parse(text, name=name, report=reading.misread)
     if root.tag in _EXPANDED and xacro.is_xacro(root):
         root = xacro.expand_text(text, name, reading)
-    world = read_root(root, reading)
-    reading.report(strict=strict)
-    return world
+    return read_root(root, reading)
 
 
 def load_model_string(

@@ -1,4 +1,4 @@
-"""``gazelle check`` of launch files: each node, and whether its program is there."""
+"""``gazelle check`` of launch files: each node and its program, worlds and robots."""
 
 from __future__ import annotations
 
@@ -96,3 +96,102 @@ def test_a_nodelet_is_looked_for_by_its_class(cli, tmp_path, command):
     assert "nodelet/nodelet yocs_cmd_vel_mux/CmdVelMuxNodelet  built in" in out
     assert "nodelets.launch:3: there is no nodelet 'yocs_cmd_vel_mux/CmdVelMux'" in out
     assert "did you mean 'yocs_cmd_vel_mux/CmdVelMuxNodelet'?" in out
+
+
+WORLD = """<sdf version="1.6"><world name="default">
+  <include><uri>model://nowhere</uri></include>
+  <plugin name="odd" filename="libodd.so"/>
+</world></sdf>
+"""
+ROBOT = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:arg name="mesh" default="absent"/>
+  <link name="base">
+    <visual><geometry><mesh filename="package://none/$(arg mesh).stl"/></geometry></visual>
+  </link>
+</robot>
+"""
+
+
+def findings(cli, *words):
+    """Return what is found, without the name of the file that was checked."""
+    _, out, _ = cli("check", "--json", *words)
+    return [{key: each[key] for key in each if key != "path"} for each in json.loads(out)]
+
+
+def check_nodes(cli, tmp_path, *elements):
+    """Return the findings about a launch file with these elements, one a line from line 2 on."""
+    file = tmp_path / "loads.launch"
+    file.write_text("\n".join(["<launch>", *elements, "</launch>"]))
+    return findings(cli, str(file))
+
+
+def places(found, tmp_path):
+    """Return the file, relative to a folder, and line of each finding."""
+    return [(each["file"].removeprefix(f"{tmp_path}/"), each["line"]) for each in found]
+
+
+def test_the_world_of_a_launch_is_checked_as_by_itself(cli, tmp_path):
+    world = tmp_path / "bad.world"
+    world.write_text(WORLD)
+    node = f'<node pkg="gazebo_ros" type="gzserver" name="gazebo" args="-u {world}"/>'
+    found = check_nodes(cli, tmp_path, node)
+    unknown = found.pop()  # said once a process
+    assert f"{world}:3: plugin 'odd' (libodd.so)" in unknown["message"]
+    assert found == findings(cli, str(world))
+    assert places(found[:1], tmp_path) == [("bad.world", 2)]
+    assert "model://nowhere" in found[0]["message"]
+
+
+def test_a_world_that_is_nowhere_is_an_error_of_the_launch_file(cli, tmp_path):
+    node = '<node pkg="gazebo_ros" type="gzserver" name="gazebo" args="worlds/nowhere.world"/>'
+    found = check_nodes(cli, tmp_path, node)
+    assert places(found, tmp_path) == [("loads.launch", 2)]
+    assert "there is no such world: 'worlds/nowhere.world'" in found[0]["message"]
+
+
+def test_wrong_arguments_of_a_server_are_an_error_of_the_launch_file(cli, tmp_path):
+    node = '<node pkg="gazebo_ros" type="gzserver" name="gazebo" args="--sed 3"/>'
+    found = check_nodes(cli, tmp_path, node)
+    assert places(found, tmp_path) == [("loads.launch", 2)]
+    assert "the arguments of /gazebo are wrong" in found[0]["message"]
+
+
+@pytest.mark.parametrize("source", ["command", "textfile"])
+def test_a_spawned_robot_is_checked_with_the_lines_of_its_file(cli, tmp_path, source):
+    robot = tmp_path / "robot.xacro"
+    robot.write_text(ROBOT)
+    value = {
+        "command": f"$(find xacro)/xacro --inorder {robot} mesh:=other",
+        "textfile": str(robot),
+    }
+    found = check_nodes(
+        cli,
+        tmp_path,
+        f'<param name="ns/robot_description" {source}="{value[source]}"/>',
+        '<node ns="ns" pkg="gazebo_ros" type="spawn_model" name="s"'
+        ' args="-urdf -model r -param robot_description"/>',
+    )
+    assert places(found[:1], tmp_path) == [("robot.xacro", 4)]
+    name = "other" if source == "command" else "absent"
+    assert f"package://none/{name}.stl" in found[0]["message"]
+
+
+def test_a_description_made_by_a_program_is_checked_as_text(cli, tmp_path):
+    robot = tmp_path / "robot.urdf"
+    robot.write_text('<robot name="r">\n<link/>\n</robot>')
+    found = check_nodes(cli, tmp_path, f'<param name="robot_description" command="cat {robot}"/>')
+    assert places(found, tmp_path) == [("parameter '/robot_description'", 2)]
+
+
+def test_models_are_found_by_the_environment_of_their_node(cli, tmp_path):
+    model = tmp_path / "models/crate"
+    model.mkdir(parents=True)
+    (model / "model.config").write_text("<model><sdf version='1.6'>model.sdf</sdf></model>")
+    (model / "model.sdf").write_text(
+        "<sdf version='1.6'><model name='crate'><static>1</static></model></sdf>"
+    )
+    words = "-sdf -database crate -model c"
+    start = f'<node pkg="gazebo_ros" type="spawn_model" name="s" args="{words}"'
+    assert places(check_nodes(cli, tmp_path, f"{start}/>"), tmp_path) == [("loads.launch", 2)]
+    path = f'<env name="GAZEBO_MODEL_PATH" value="{tmp_path}/models"/>'
+    assert check_nodes(cli, tmp_path, f"{start}>{path}</node>") == []

@@ -166,7 +166,7 @@ def test_what_only_begins_like_an_option_is_a_number(number):
 
 
 def test_programs_of_ros_take_negative_values_too():
-    parsed = spawn_model._options(
+    parsed = spawn_model.parse_options(
         ["-urdf", "-file", "a", "-model", "b", "-x", "-1e-3", "-Y", "-.5", "-J", "elbow", "-1e-2"]
     )
     assert (parsed.x, parsed.yaw, parsed.joints) == (-1e-3, -0.5, [["elbow", "-1e-2"]])

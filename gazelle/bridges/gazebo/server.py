@@ -38,7 +38,7 @@ _ENGINES = ("ode", "mujoco")  # worlds for ODE are what MuJoCo is made to resemb
 def main(arguments: Sequence[str]) -> int:
     """Run a world on the graph until shutdown; returns the exit code."""
     found = parse_arguments(arguments, "gazebo")
-    options = _options(found.plain)
+    options = parse_options(found.plain)
     place = names.as_namespace(found.options["namespace"])
     refuse_twin(names.join(place, found.options["name"]), found.options.get("master_uri"))
     # The node comes first: what the world warns of while it is read goes to /rosout, too.
@@ -82,7 +82,8 @@ def _run(door: RosDoor, stop: threading.Event, seconds: float | None) -> None:
         waiter.join()
 
 
-def _options(arguments: Sequence[str]) -> argparse.Namespace:
+def parse_options(arguments: Sequence[str]) -> argparse.Namespace:
+    """Parse the command line of ``gzserver``: ``world`` is its file as Gazebo's users name it."""
     parser = argparse.ArgumentParser("gzserver", allow_abbrev=False)
     parser.add_argument("world", nargs="?", default="worlds/empty.world")
     parser.add_argument("-u", "--pause", dest="paused", action="store_true")

@@ -19,7 +19,7 @@ def main(arguments: Sequence[str]) -> int:
     The pace is what the file's ``speedup`` says, with a window or without.
     """
     found = parse_arguments(arguments, "stageros")
-    options = _options(found.plain)
+    options = parse_options(found.plain)
     # The node comes first: what the world warns of while it is read goes to /rosout, too.
     with found.start() as node, Simulation(options.world, "planar") as sim:
         speedup = stage_of(sim).description.speedup
@@ -47,7 +47,8 @@ def _run(door: StageDoor, stop: threading.Event) -> None:
         waiter.join()
 
 
-def _options(arguments: Sequence[str]) -> argparse.Namespace:
+def parse_options(arguments: Sequence[str]) -> argparse.Namespace:
+    """Parse the command line of ``stageros``: ``world`` is its file."""
     parser = argparse.ArgumentParser("stageros", allow_abbrev=False)
     parser.add_argument("-g", action="store_true", help="no window; there is none anyway")
     parser.add_argument("-u", dest="model_names", action="store_true", help="names of models")

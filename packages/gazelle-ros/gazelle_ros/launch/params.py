@@ -57,7 +57,8 @@ def read_param(element: Element, scope: LaunchScope) -> LaunchParameter:
         raise element.error(f"type='{kind}' is unknown", did_you_mean(kind, KINDS))
     text = cast("str", scope.text(element, given[0]))
     try:
-        return LaunchParameter(name, _value(given[0], text, kind), place_of(element))
+        file = str(published(text)) if given[0] == "textfile" else None
+        return LaunchParameter(name, _value(given[0], text, kind), place_of(element), file)
     except LaunchError as error:
         raise element.error(error.message, error.hint) from None
     except OSError as error:

@@ -33,6 +33,8 @@ class LaunchParameter:
     name: str
     value: Any
     place: SourceLocation
+    file: str | None = None
+    """Text file that holds the value."""
 
 
 @dataclass(frozen=True, slots=True)
