@@ -62,6 +62,15 @@ _OWN = {
         }),
         BuiltinPackage("joy", {"joy_node": "gazelle_ros.builtin.joysticks.joy_node:main"}),
         BuiltinPackage("joy_teleop", dict.fromkeys(("joy_teleop", "joy_teleop.py"), "gazelle_ros.builtin.joysticks.joy_teleop:main")),
+        BuiltinPackage("kobuki_bumper2pc", nodelets={
+            "Bumper2PcNodelet": "gazelle_ros.builtin.kobuki.bumper_cloud:BumperCloud",
+        }),
+        BuiltinPackage("kobuki_random_walker", nodelets={
+            "RandomWalkerControllerNodelet": "gazelle_ros.builtin.kobuki.random_walker:RandomWalker",
+        }),
+        BuiltinPackage("kobuki_safety_controller", nodelets={
+            "SafetyControllerNodelet": "gazelle_ros.builtin.kobuki.safety_controller:KobukiSafety",
+        }),
         BuiltinPackage("laser_filters", {
             "scan_to_scan_filter_chain": "gazelle_ros.builtin.scans.filters.chain:main",
         }, {"scan_to_scan_filter_chain": "gazelle_ros.builtin.scans.filters.chain:ScanFilterChain"}),

@@ -11,13 +11,11 @@ from statistics import median_high
 
 from gazelle_ros.base.errors import RosError
 from gazelle_ros.builtin.parameters import private_values, settings_of
+from gazelle_ros.builtin.speeds import Speeds, repeat, twist_of
 from gazelle_ros.builtin.tuned_settings import TunedSettings, tunable
-from gazelle_ros.clock import SECOND, Rate
+from gazelle_ros.clock import SECOND
 from gazelle_ros.msgs import geometry_msgs, nav_msgs
 from gazelle_ros.node import Node
-
-Speeds = tuple[float, float]
-"""Along x [m/s] and about z [rad/s]."""
 
 NONE, ODOMETRY, COMMANDS = 0, 1, 2
 _PERIODS = 5
@@ -135,12 +133,7 @@ class VelocitySmoother:
 
     def run(self, stop: threading.Event) -> None:
         """Publish commands until shutdown."""
-        rate = Rate(self._node.clock, self.settings.frequency, reset=True)
-        while not stop.is_set() and not self._node.closed:
-            found = self.step()
-            if found is not None:
-                self._output.publish(_twist(found))
-            rate.sleep(lambda: stop.is_set() or self._node.closed)
+        repeat(self._node, self.settings.frequency, self._publish, stop)
 
     def take(self, message: geometry_msgs.msg.Twist) -> None:
         """Handle a command."""
@@ -167,6 +160,11 @@ class VelocitySmoother:
             elif not self._active:
                 return None
             return self._last
+
+    def _publish(self) -> None:
+        found = self.step()
+        if found is not None:
+            self._output.publish(twist_of(found))
 
     def _follow_robot(self, lost: bool) -> None:  # noqa: FBT001  # private
         """Continue from the robot's own speeds where it does not follow the commands."""
@@ -202,9 +200,3 @@ def _checked(settings: SmootherSettings) -> SmootherSettings:
     if settings.robot_feedback not in {NONE, ODOMETRY, COMMANDS}:
         raise RosError(f"robot_feedback is 0, 1 or 2, not {settings.robot_feedback}")
     return settings
-
-
-def _twist(speeds: Speeds) -> geometry_msgs.msg.Twist:
-    made = geometry_msgs.msg.Twist()
-    made.linear.x, made.angular.z = speeds
-    return made

@@ -1,0 +1,1 @@
+"""Nodelets that run beside the driver of a Kobuki base."""
