@@ -171,3 +171,24 @@ def test_programs_of_ros_take_negative_values_too():
     )
     assert (parsed.x, parsed.yaw, parsed.joints) == (-1e-3, -0.5, [["elbow", "-1e-2"]])
     assert gz._parser().parse_args(["physics", "-g", "-1,0,-9.8"]).gravity == (-1.0, 0.0, -9.8)
+
+
+@pytest.mark.parametrize(
+    ("words", "option"),
+    [
+        ("train TurtleBot3Stage1 --ray=", "--ray"),
+        ("eval RUN --import=", "--import"),
+        ("run empty --engine=", "--engine"),
+        ("topic echo --filter= /a", "--filter"),
+    ],
+)
+def test_an_option_without_a_value_is_refused(cli, words, option):
+    code, _, err = cli(*words.split())
+    assert code == 2
+    assert f"argument {option}: expected a value, not an empty text" in err
+
+
+def test_an_empty_text_is_a_value_where_it_is_the_default():
+    parser = Parser(prog="x")
+    parser.add_argument("--exclude", default="")
+    assert parser.parse_args(["--exclude="]).exclude == ""

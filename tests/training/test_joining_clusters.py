@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 import signal
+import subprocess
 import sys
+import time
 import types
+from pathlib import Path
 
 import pytest
 
+from gazelle.errors import TaskError
 from gazelle.training.workers.clusters import connect
+from gazelle_ros.base.child_processes import descendants
+from gazelle_ros.base.interrupts import Interrupted, interruptible
 
 
 @pytest.fixture
@@ -29,7 +35,7 @@ def joined(monkeypatch):
     signal.signal(signal.SIGTERM, before)
 
 
-@pytest.mark.parametrize("address", [None, "", "local", "auto"])
+@pytest.mark.parametrize("address", ["local", "auto"])
 def test_a_handler_of_sigterm_stays(joined, address):
     def save(number, frame):
         pass
@@ -45,9 +51,47 @@ def test_without_a_handler_ray_ends_its_processes(joined):
     assert signal.getsignal(signal.SIGTERM) is not signal.SIG_DFL
 
 
-@pytest.mark.parametrize("address", [None, "", "local"])
-def test_a_cluster_of_this_machine_is_reached_by_nobody_else(joined, address):
-    connect(address)
+@pytest.mark.parametrize("address", ["", " "])
+def test_an_empty_address_starts_nothing(joined, address):
+    with pytest.raises(TaskError, match="address of a Ray cluster is empty"):
+        connect(address)
+    assert not joined
+
+
+def test_a_cluster_of_this_machine_is_reached_by_nobody_else(joined):
+    connect("local")
     assert joined["address"] == "local"
     assert joined["_node_ip_address"] == "127.0.0.1"
     assert joined["include_dashboard"] is False
+
+
+@pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGINT])
+def test_an_interrupted_start_leaves_no_process(joined, monkeypatch, how):
+    began = []
+    tree = "import subprocess as s; s.Popen(['sleep', '100']); print(flush=True); s.os.wait()"
+    other = subprocess.Popen(["sleep", "100"])
+    take_sigterm = sys.modules["ray"].init
+
+    def init(**keywords):
+        take_sigterm()
+        began.append(subprocess.Popen([sys.executable, "-c", tree], stdout=subprocess.PIPE))
+        began[0].stdout.readline()
+        began.extend(each for each in descendants() if each not in (began[0].pid, other.pid))
+        signal.raise_signal(how)
+
+    monkeypatch.setattr(sys.modules["ray"], "init", init)
+    with pytest.raises(Interrupted) as caught, interruptible():
+        connect("local")
+    assert caught.value.signal == how
+    assert began[0].wait(10) == -signal.SIGKILL
+    assert other.poll() is None
+    other.kill()
+    other.wait()
+    began[0].stdout.close()
+    assert len(began) == 2
+    while Path(f"/proc/{began[1]}/stat").exists() and not is_zombie(began[1]):
+        time.sleep(0.01)
+
+
+def is_zombie(process):
+    return "State:\tZ" in Path(f"/proc/{process}/status").read_text()

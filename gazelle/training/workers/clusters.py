@@ -13,9 +13,12 @@ from gazelle.errors import MissingExtraError, TaskError
 from gazelle.native.processors import VARIABLE
 from gazelle.training.workers.shards import Blueprint, ShardHost
 from gazelle.training.workers.team import WorkerLink, WorkerLostError
+from gazelle_ros.base.child_processes import descendants
+from gazelle_ros.base.interrupts import Interrupted, holding
 
 LOCAL = "local"
 """The address of a cluster that is started on this machine and ends with the program."""
+_HINT = "'ray start --head' starts a cluster; --ray without an address uses this machine"
 
 
 class RayLink:
@@ -59,7 +62,7 @@ class RayLink:
         connected().kill(self.actor)
 
 
-def connect(address: str | None) -> int:
+def connect(address: str) -> int:
     """Join a cluster, or start one on this machine.
 
     Args:
@@ -71,12 +74,25 @@ def connect(address: str | None) -> int:
 
     Raises:
         MissingExtraError: Ray is not installed.
-        TaskError: There is no cluster at this address.
+        TaskError: There is no cluster at this address, or it is empty.
     """
+    if not address.strip():
+        raise TaskError("the address of a Ray cluster is empty", hint=_HINT)
     os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")  # it would report to its makers
-    address = address or LOCAL
-    with _sigterm_handler_kept():
-        return _joined(address)
+    try:
+        import ray
+    except ModuleNotFoundError as error:
+        raise MissingExtraError("ray", "distributed") from error
+    alone: dict[str, Any] = {}
+    if address == LOCAL:
+        alone = {"include_dashboard": False, "_node_ip_address": "127.0.0.1"}
+    try:
+        if not ray.is_initialized():
+            with _ended_if_interrupted(), _sigterm_handler_kept():
+                ray.init(address=address, log_to_driver=True, logging_level="ERROR", **alone)
+    except (ConnectionError, ValueError) as error:
+        raise TaskError(f"no Ray cluster at {address}: {error}", hint=_HINT) from error
+    return int(ray.cluster_resources().get("CPU", 1))
 
 
 @contextlib.contextmanager
@@ -90,22 +106,25 @@ def _sigterm_handler_kept() -> Iterator[None]:
             signal.signal(signal.SIGTERM, before)
 
 
-def _joined(address: str) -> int:
-    """Join a cluster or start one; see `connect`."""
+@contextlib.contextmanager
+def _ended_if_interrupted() -> Iterator[None]:
+    """End the processes that an interrupted start of Ray leaves; Ray forgets them.
+
+    Raises:
+        Interrupted: SIGTERM came, which Ray's handler turns into an exit with another code.
+    """
+    before = descendants()
     try:
-        import ray
-    except ModuleNotFoundError as error:
-        raise MissingExtraError("ray", "distributed") from error
-    alone: dict[str, Any] = {}
-    if address == LOCAL:
-        alone = {"include_dashboard": False, "_node_ip_address": "127.0.0.1"}
-    try:
-        if not ray.is_initialized():
-            ray.init(address=address, log_to_driver=True, logging_level="ERROR", **alone)
-    except (ConnectionError, ValueError) as error:
-        hint = "'ray start --head' starts a cluster; --ray without an address uses this machine"
-        raise TaskError(f"no Ray cluster at {address}: {error}", hint=hint) from error
-    return int(ray.cluster_resources().get("CPU", 1))
+        yield
+    except BaseException as error:
+        with holding():
+            for process in descendants():
+                if process not in before:
+                    with contextlib.suppress(ProcessLookupError):
+                        os.kill(process, signal.SIGKILL)
+        if isinstance(error, SystemExit):
+            raise Interrupted(signal.SIGTERM) from error
+        raise
 
 
 def connected() -> Any:

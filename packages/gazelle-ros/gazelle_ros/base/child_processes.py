@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 from gazelle_ros.base.interrupts import holding
@@ -55,3 +56,19 @@ def child_process(command: Sequence[str], **options: Any) -> Iterator[subprocess
         if process is not None:
             with process:  # closes its pipes
                 process.kill()
+
+
+def descendants() -> list[int]:
+    """Return the processes that this one started, and those that they did, parents first.
+
+    None without ``/proc``.
+    """
+    children: dict[int, list[int]] = {}
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        with contextlib.suppress(OSError):  # it has ended
+            parent = stat.read_text(errors="replace").rpartition(")")[2].split()[1]
+            children.setdefault(int(parent), []).append(int(stat.parent.name))
+    found = [os.getpid()]
+    for process in found:
+        found += children.get(process, [])
+    return found[1:]

@@ -38,6 +38,13 @@ class Parser(NumberParser):
         finally:
             self.intermixed = True
 
+    def _get_value(self, action: argparse.Action, arg_string: str) -> Any:
+        # A shell makes it of a variable that is not set; a default of "" says that it has a meaning.
+        words = action.option_strings and action.type in (None, Path) and action.default != ""
+        if words and not arg_string:
+            raise argparse.ArgumentError(action, "expected a value, not an empty text")
+        return super()._get_value(action, arg_string)
+
     def error(self, message: str) -> NoReturn:
         """Print what is wrong with the command line and exit with code 2."""
         hint = self._closest_option(message) or f"see {self.prog} --help"
