@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import io
-
 import numpy as np
 
 from gazelle.bridges.conversions import (
@@ -18,6 +16,7 @@ from gazelle.simulation.values import (
     ImageValue,
     PixelPoints,
 )
+from gazelle_ros.builtin.images.compression import CompressionSettings, fill_compressed
 from gazelle_ros.msgs import sensor_msgs
 
 _FLOAT32 = 7  # sensor_msgs/PointField
@@ -32,8 +31,6 @@ _POINT = np.dtype(
 )
 """Points as PCL lays them out."""
 
-_QUALITY = 80  # of JPEG, as compressed_image_transport's default
-
 
 def _image(message: sensor_msgs.msg.Image, value: ImageValue, view: ConversionContext) -> None:
     set_header(message, view, value.stamp)
@@ -47,14 +44,9 @@ def _image(message: sensor_msgs.msg.Image, value: ImageValue, view: ConversionCo
 def _compressed(
     message: sensor_msgs.msg.CompressedImage, value: CompressedImageValue, view: ConversionContext
 ) -> None:
-    from PIL import Image
-
     set_header(message, view, value.stamp)
-    written = io.BytesIO()
-    Image.fromarray(value.pixels[view.world]).save(written, "JPEG", quality=_QUALITY)
-    kind = "mono8" if value.pixels.ndim == 3 else "rgb8"
-    message.format = f"{kind}; jpeg compressed {'' if kind == 'mono8' else 'bgr8'}".rstrip()
-    message.data = written.getvalue()
+    encoding = "mono8" if value.pixels.ndim == 3 else "rgb8"
+    fill_compressed(message, value.pixels[view.world], encoding, CompressionSettings())
 
 
 def _info(

@@ -51,6 +51,7 @@ _OWN = {
         BuiltinPackage("depthimage_to_laserscan", {
             "depthimage_to_laserscan": "gazelle_ros.builtin.scans.depth_image:main",
         }, {"DepthImageToLaserScanNodelet": "gazelle_ros.builtin.scans.depth_image:DepthImageToLaserScan"}),
+        BuiltinPackage("image_transport", {"republish": "gazelle_ros.builtin.images.republish:main"}),
         BuiltinPackage("imu_complementary_filter", {
             "complementary_filter_node": "gazelle_ros.builtin.imu.node:complementary_main",
         }),
