@@ -50,6 +50,7 @@ def test_short_lists_count_every_word():
         ("Burger", "turtlebot3_burger"),
         ("stage_1", "turtlebot3_stage_1"),
         ("fetch", "fetch_arm"),
+        ("my_cartpole_v2", "cartpole"),
         ("house", None),
         ("bot", None),
         ("art", None),

@@ -19,7 +19,10 @@ from gazelle.sensors import NoiseModel, View
 from gazelle.sensors.noise import NO_NOISE
 from gazelle.sensors.rendering import directions_of_view
 from gazelle.simulation import Clock, Replay, Schedule
+from gazelle.stage.description.devices import StageActuator, StageSensor
+from gazelle.stage.description.models import StageBlock, StageModel, StagePose, StageWorld
 from gazelle.training.runs import Run, RunConfig
+from gazelle_ros.master.proxy import MasterProxy
 
 HUGE = 10**400
 
@@ -143,6 +146,25 @@ def test_times():
                 call(seconds)
             with pytest.raises(ValueError, match="finite"):  # genpy's
                 call(seconds)
+
+
+@pytest.mark.parametrize("number", [math.nan, math.inf, -math.inf, 10**400])
+def test_parts_of_stage_worlds(number):
+    for call in (
+        lambda: StageSensor(range=(0.0, number)),
+        lambda: StageModel("model", "a", pose=StagePose(number)),
+        lambda: StageBlock(((0.0, number),), (0.0, 1.0)),
+        lambda: StageActuator(start=number),
+        lambda: StageWorld(interval_sim=number),
+    ):
+        with pytest.raises(FormatError, match=r"finite|less than"):
+            call()
+
+
+@pytest.mark.parametrize("seconds", [math.nan, math.inf, HUGE, 0.0, -1.0])
+def test_times_that_no_master_has(seconds):
+    with pytest.raises(RosError, match="timeout must be above 0"):
+        MasterProxy("http://localhost:1", "/a", seconds)
 
 
 @pytest.mark.parametrize("path", ["no such", "/", "/dev/null/a", "a" * 300, "\0", "\ud800"])

@@ -9,7 +9,9 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
+from gazelle.argument_checks import checked
 from gazelle.description.material import Color
+from gazelle.errors import FormatError
 
 Drive = Literal["diff", "omni", "car"]
 Localization = Literal["gps", "odom"]
@@ -20,6 +22,7 @@ Range = tuple[float, float]
 _BOUNDS = ((-1.0, 1.0), (-1.0, 1.0), (-1.0, 1.0), (-math.pi / 2, math.pi / 2))
 
 
+@checked(FormatError)
 @dataclass(frozen=True, slots=True)
 class StagePosition:
     """``position``: a base that drives.
@@ -47,6 +50,7 @@ class StagePosition:
     acceleration_bounds: tuple[Range, Range, Range, Range] = _BOUNDS
 
 
+@checked(FormatError)
 @dataclass(frozen=True, slots=True)
 class StageSensor:
     """``sensor``: one fan of rays of a ranger.
@@ -76,6 +80,7 @@ class StageSensor:
         return self.pose[2] + self.size[2] / 2.0
 
 
+@checked(FormatError)
 @dataclass(frozen=True, slots=True)
 class StageRanger:
     """``ranger``: sonars, infrared sensors and laser scanners."""
@@ -83,6 +88,7 @@ class StageRanger:
     sensors: tuple[StageSensor, ...] = ()
 
 
+@checked(FormatError)
 @dataclass(frozen=True, slots=True)
 class StageCamera:
     """``camera``: colours and depths.
@@ -100,6 +106,7 @@ class StageCamera:
     pantilt: tuple[float, float] = (0.0, 0.0)
 
 
+@checked(FormatError)
 @dataclass(frozen=True, slots=True)
 class StageBlobfinder:
     """``blobfinder``: patches of colour.
@@ -119,6 +126,7 @@ class StageBlobfinder:
     pan: float = 0.0
 
 
+@checked(FormatError)
 @dataclass(frozen=True, slots=True)
 class StageFiducial:
     """``fiducial``: finds models that have a ``fiducial_return``.
@@ -137,6 +145,7 @@ class StageFiducial:
     ignore_height: bool = False
 
 
+@checked(FormatError)
 @dataclass(frozen=True, slots=True)
 class StageBumper:
     """``bumper``: (pose [m, rad], length [m]) of each strip."""
@@ -144,6 +153,7 @@ class StageBumper:
     strips: tuple[tuple[Quartet, float], ...] = ()
 
 
+@checked(FormatError)
 @dataclass(frozen=True, slots=True)
 class StageGripper:
     """``gripper``: paddles that open, close, go up and down.
@@ -161,6 +171,7 @@ class StageGripper:
     autosnatch: bool = False
 
 
+@checked(FormatError)
 @dataclass(frozen=True, slots=True)
 class StageActuator:
     """``actuator``: a joint that moves what is mounted on it.
@@ -189,6 +200,7 @@ class StageActuator:
         return (x, y, z, 0.0)
 
 
+@checked(FormatError)
 @dataclass(frozen=True, slots=True)
 class StageBlinkenlight:
     """``blinkenlight``: a light that blinks.

@@ -16,9 +16,11 @@ from typing import ClassVar, Literal, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.argument_checks import checked
 from gazelle.description.material import Color
 from gazelle.description.pose import Pose
 from gazelle.description.source import Source
+from gazelle.errors import FormatError
 from gazelle.stage.description.devices import (
     StageActuator,
     StageDevice,
@@ -67,6 +69,7 @@ _ORIGIN = StagePose()
 _SIZE = StageSize()
 
 
+@checked(FormatError)
 @dataclass(frozen=True, slots=True)
 class StageBlock:
     """A prism of a model's body, scaled to the model's size.
@@ -82,6 +85,7 @@ class StageBlock:
     color: Color | None = None
 
 
+@checked(FormatError)
 @dataclass(frozen=True, slots=True, eq=False)
 class StageBitmap:
     """Prisms from the dark pixels of a picture.
@@ -121,6 +125,7 @@ class StageBitmap:
         return self.uri, self.low, self.high, self.z
 
 
+@checked(FormatError)
 @dataclass(frozen=True, slots=True)
 class StageReturns:
     """Properties of a model as other models and sensors perceive it.
@@ -142,6 +147,7 @@ class StageReturns:
     gripper: bool = False
 
 
+@checked(FormatError)
 @dataclass(frozen=True, slots=True)
 class StageGui:
     """Display of a model in a window: nose, grid, outline, and whether a mouse moves it."""
@@ -155,6 +161,7 @@ class StageGui:
     say: str = ""
 
 
+@checked(FormatError)
 @dataclass(frozen=True, slots=True)
 class StagePower:
     """Energy of a model.
@@ -174,6 +181,7 @@ class StagePower:
     capacity: float | None = None
 
 
+@checked(FormatError)
 @dataclass(frozen=True, slots=True)
 class StageController:
     """``ctrl``: a controller by the name of its library, and what it is started with."""
@@ -182,6 +190,7 @@ class StageController:
     arguments: str = ""
 
 
+@checked(FormatError)
 @dataclass(frozen=True, slots=True)
 class StageModel:
     """A model.
@@ -295,6 +304,7 @@ class PlacedStageModel:
         return self.pose.then(self.model.origin)
 
 
+@checked(FormatError)
 @dataclass(frozen=True, slots=True)
 class StageWindow:
     """Stage's window; kept for viewers.
@@ -314,6 +324,7 @@ class StageWindow:
     settings: tuple[tuple[str, float | str | tuple[float | str, ...]], ...] = ()
 
 
+@checked(FormatError)
 @dataclass(frozen=True, slots=True)
 class StageWorld:
     """A world.

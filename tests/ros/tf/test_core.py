@@ -15,6 +15,7 @@ from gazelle_ros.tf import (
     FrameTree,
     InvalidArgumentException,
     LookupException,
+    StampedTransform,
     TransformException,
 )
 from gazelle_ros.tf.describe import as_dot, as_yaml
@@ -128,6 +129,9 @@ def test_a_loop_is_found():
         ("a", "", (0.0, 0.0, 0.0), STILL, "TF_NO_CHILD_FRAME_ID"),
         ("", "a", (0.0, 0.0, 0.0), STILL, "TF_NO_FRAME_ID"),
         ("a", "b", (math.nan, 0.0, 0.0), STILL, "TF_NAN_INPUT"),
+        ("a", "b", (0.0, -math.inf, 0.0), STILL, "TF_NAN_INPUT"),
+        ("a", "b", (10**400, 0.0, 0.0), STILL, "TF_NAN_INPUT"),
+        ("a", "b", (0.0, 0.0, 0.0), (0, 0, 0, 10**400), "TF_NAN_INPUT"),
         ("a", "b", (1.0, 2.0), STILL, "3 and 4 numbers"),
         ("a", "b", (), STILL, "3 and 4 numbers"),
         ("a", "b", 1.0, STILL, "3 and 4 numbers"),
@@ -142,6 +146,13 @@ def test_impossible_placements_are_refused_and_logged(
     assert not tree.place(parent, child, S, translation, rotation, authority="me")
     assert word in caplog.text
     assert tree.names() == []
+
+
+@pytest.mark.parametrize("number", [math.nan, math.inf, 10**400])
+def test_transforms_are_of_finite_numbers(number):
+    for parts in (((number, 0.0, 0.0), STILL), ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, number))):
+        with pytest.raises(InvalidArgumentException, match="must be finite"):
+            StampedTransform(S, *parts)
 
 
 def test_old_and_repeated_data_is_ignored(tree, caplog):

@@ -151,10 +151,11 @@ def _alike(one: str, other: str) -> bool:
 def closest_of(name: str, known: Iterable[str]) -> str | None:
     """Return a hint that names the closest of the known names; None if none is close.
 
-    A word of a longer name is close to it, as ``burger`` is to ``turtlebot3_burger``.
+    A word of a longer name is close to it, as ``burger`` is to ``turtlebot3_burger``, and ``empty``
+    to ``empty_world``.
     """
     names = sorted(known)
-    close = _closest(str(name), names) or _longer(str(name), names)
+    close = _closest(str(name), names) or _longer(str(name), names) or _shorter(str(name), names)
     return None if close is None else f"did you mean '{close}'?"
 
 
@@ -164,6 +165,12 @@ def _longer(name: str, known: Iterable[str]) -> str | None:
         return None
     whole = re.compile(rf"(?<![a-z0-9]){re.escape(name)}(?![a-z0-9])", re.IGNORECASE)
     return min((each for each in known if whole.search(each)), key=len, default=None)
+
+
+def _shorter(name: str, known: Iterable[str]) -> str | None:
+    """Return the longest name that is a word of another; None if none is."""
+    parts = (each for each in known if _longer(each, [name]))
+    return max(parts, key=len, default=None)
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:

@@ -35,7 +35,7 @@ from gazelle_ros.tf.errors import (
     LookupException,
     TransformException,
 )
-from gazelle_ros.tf.faults import name_fault, placement_fault
+from gazelle_ros.tf.faults import are_finite, name_fault, placement_fault
 
 _LOG = logging.getLogger("gazelle.ros.tf")
 _MAX_DEPTH = 1000
@@ -53,11 +53,21 @@ class StampedTransform:
         stamp: Time it holds for [ns].
         translation: Of the source's origin in the target frame [m].
         rotation: (x, y, z, w).
+
+    Raises:
+        InvalidArgumentException: A number is not finite.
     """
 
     stamp: int
     translation: Vector = ORIGIN
     rotation: Quaternion = IDENTITY
+
+    def __post_init__(self) -> None:
+        if not are_finite(self.translation, self.rotation):
+            raise InvalidArgumentException(
+                "the numbers of a transform must be finite, not "
+                f"{self.translation!r:.60} and {self.rotation!r:.60}"
+            )
 
 
 class FrameTree:

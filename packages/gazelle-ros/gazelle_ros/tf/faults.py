@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from gazelle_ros.base.real_numbers import real
 from gazelle_ros.base.rotations import Quaternion, Vector
 
 _NORM_TOLERANCE = 10e-3
@@ -45,14 +46,14 @@ def placement_fault(
             f'TF_NAN_INPUT: Ignoring transform for child_frame_id "{child}" from authority '
             f'"{authority}" because it needs 3 and 4 numbers, not {translation!r} and {rotation!r}'
         )
-    x, y, z, w = rotation
-    norm = x * x + y * y + z * z + w * w
-    if math.isnan(norm) or math.isnan(sum(translation)):
+    if not are_finite(translation, rotation):
         return (
             f'TF_NAN_INPUT: Ignoring transform for child_frame_id "{child}" from authority '
             f'"{authority}" because of a nan value in the transform '
             f"({_numbers(translation)}) ({_numbers(rotation)})"
         )
+    x, y, z, w = rotation
+    norm = x * x + y * y + z * z + w * w
     if abs(norm - 1.0) >= _NORM_TOLERANCE:
         return (
             f'TF_DENORMALIZED_QUATERNION: Ignoring transform for child_frame_id "{child}" from '
@@ -60,6 +61,14 @@ def placement_fault(
             f"({_numbers(rotation)})"
         )
     return ""
+
+
+def are_finite(translation: Vector, rotation: Quaternion) -> bool:
+    """Return whether all numbers of a transform are finite."""
+    try:
+        return all(map(math.isfinite, (*translation, *rotation)))
+    except OverflowError:  # an int beyond all floats
+        return False
 
 
 def _count(values: object) -> int:
@@ -70,4 +79,5 @@ def _count(values: object) -> int:
 
 
 def _numbers(values: tuple[float, ...]) -> str:
-    return " ".join(f"{value:f}" for value in values)
+    numbers = (real(value) for value in values)
+    return " ".join("inf" if each is None else f"{each:f}" for each in numbers)

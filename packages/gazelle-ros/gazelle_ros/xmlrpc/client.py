@@ -9,7 +9,10 @@ import threading
 from typing import Any
 
 from gazelle_ros import net
+from gazelle_ros.base.deadlines import LONGEST_WAIT
+from gazelle_ros.base.real_numbers import finite
 from gazelle_ros.errors import (
+    NoTimeError,
     ProtocolError,
     RefusedConnectionError,
     SilentPeerError,
@@ -44,9 +47,16 @@ class BlockingClient:
     Args:
         uri: Of the server.
         timeout: Seconds to wait for an answer.
+
+    Raises:
+        NoTimeError: The timeout is not above 0, or longer than anything waits.
     """
 
     def __init__(self, uri: str, timeout: float = 30.0, limits: NetworkLimits = LIMITS) -> None:
+        if (finite(timeout, LONGEST_WAIT) or 0.0) <= 0.0:
+            raise NoTimeError(
+                f"timeout must be above 0 and at most {LONGEST_WAIT:g} s, not {timeout!r:.60}"
+            )
         self.uri = uri
         self.timeout = timeout
         self._limits = limits
