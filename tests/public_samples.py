@@ -33,7 +33,7 @@ from gazelle.streams import Stream
 from gazelle.training import Actor
 from gazelle_ros import bags
 from gazelle_ros import tf as frames
-from gazelle_ros.msgs import std_msgs, std_srvs, tf2_msgs
+from gazelle_ros.msgs import move_base_msgs, std_msgs, std_srvs, tf2_msgs
 
 TEXT = std_msgs.msg.String
 STAGE = """
@@ -58,6 +58,8 @@ PACKAGES = {
     )
 } | {
     "gazelle": "gazelle",
+    "actions": "gazelle_ros.actions",
+    "launch": "gazelle_ros.launch",
     "bags": "gazelle_ros.bags",
     "frames": "gazelle_ros.tf",
     "ros": "gazelle_ros",
@@ -93,7 +95,7 @@ class Samples:
         self._making: list[type] = []
 
     def __call__(self, name: str, annotation: str) -> Any:
-        if name in BY_NAME and ("str" in annotation or annotation in ("", "Any")):
+        if name in BY_NAME and ("str" in annotation or annotation in ("", "Any") or name == "spec"):
             return BY_NAME[name](self)
         plain = annotation.replace("'", "")
         if plain.startswith("Sequence[tuple[float, float]]"):
@@ -370,6 +372,7 @@ BY_NAME: dict[str, Callable[[Samples], Any]] = {
     "request": lambda s: std_srvs.srv.TriggerRequest(),
     "service_class": lambda s: std_srvs.srv.Trigger,
     "source": lambda s: "b",
+    "spec": lambda s: move_base_msgs.msg.MoveBaseAction,
     "uri": lambda s: s.node.master_uri,
     "type_": lambda s: "std_msgs/String",
     "name": lambda s: "r" if s.package == "stage" else "a",

@@ -89,7 +89,8 @@ OF_THE_GRAPH = {"adopt", "answer", "check"}
 WAITING = {
     *("go_to", "go_to_joints", "move_c", "move_l", "move_ofsc"),
     *("sleep", "wait", "wait_closed", "wait_for", "wait_for_message", "wait_for_model"),
-    "wait_for_service",
+    *("send_goal_and_wait", "wait_for_action_server_to_start", "wait_for_result"),
+    *("wait_for_server", "wait_for_service"),
 }
 """Methods of clients that wait for what no graph of a sweep has."""
 

@@ -13,7 +13,8 @@ from gazelle.control import EFFORT, ControllerManager, JointStateInterface, Robo
 from gazelle.control.parameters import ControllerParameters
 from gazelle.control.ports import rows_of
 from gazelle.description import Inertia, OccupancyMap, Pose
-from gazelle.errors import ControlError, Error, FormatError, RosError, SimulationError
+from gazelle.engines import planar
+from gazelle.errors import ControlError, EngineError, Error, FormatError, RosError, SimulationError
 from gazelle.formats import Resolver, save_map, write_text
 from gazelle.sensors import NoiseModel, View
 from gazelle.sensors.noise import NO_NOISE
@@ -22,6 +23,7 @@ from gazelle.simulation import Clock, Replay, Schedule
 from gazelle.stage.description.devices import StageActuator, StageSensor
 from gazelle.stage.description.models import StageBlock, StageModel, StagePose, StageWorld
 from gazelle.training.runs import Run, RunConfig
+from gazelle_ros.launch import LaunchError, load_launch_text
 from gazelle_ros.master.proxy import MasterProxy
 
 HUGE = 10**400
@@ -159,6 +161,22 @@ def test_parts_of_stage_worlds(number):
     ):
         with pytest.raises(FormatError, match=r"finite|less than"):
             call()
+
+
+@pytest.mark.parametrize("number", [math.nan, math.inf, HUGE])
+def test_parts_of_planar_sensors(number):
+    for call in (
+        lambda: planar.Fan(0.0, 0.1, 3, number),
+        lambda: planar.Mount(0, number),
+        lambda: planar.RangeNoise(share=number),
+    ):
+        with pytest.raises(EngineError, match="must be finite"):
+            call()
+
+
+def test_launch_files_that_no_file_holds():
+    with pytest.raises(LaunchError, match="not well-formed"):
+        load_launch_text("\ud800")
 
 
 @pytest.mark.parametrize("seconds", [math.nan, math.inf, HUGE, 0.0, -1.0])

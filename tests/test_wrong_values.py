@@ -126,6 +126,7 @@ def test_a_simulation_refuses_wrong_values(engine):
 
 
 PACKAGES = {
+    "actions": 150,
     "bags": 130,
     "builders": 3000,
     "clients": 1500,
@@ -137,6 +138,7 @@ PACKAGES = {
     "frames": 280,
     "gazelle": 800,
     "kinematics": 500,
+    "launch": 700,
     "navigation": 800,
     "planning": 2500,
     "rendering": 500,

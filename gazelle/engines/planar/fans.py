@@ -23,6 +23,7 @@ from gazelle.engines.planar.small_scene import front_faces_of
 from gazelle.engines.planar.viewpoint import Viewpoint
 from gazelle.errors import EngineError
 from gazelle.native.system import System
+from gazelle_ros.base.real_numbers import finite
 
 _ANGLES = 5e-5  # how wrong the kernels' angles may be [rad]
 _SIDE_BY_SIDE = 32  # beams of a bundle
@@ -54,7 +55,7 @@ class Fan:
 
     def __post_init__(self) -> None:
         numbers = (self.start, self.step, self.reach, self.begin)
-        if not all(map(math.isfinite, numbers)):
+        if any(finite(each) is None for each in numbers):
             raise EngineError(f"the angles and distances of a fan must be finite: {self}")
 
     @classmethod
@@ -89,7 +90,7 @@ class Mount:
     z: float = 0.0
 
     def __post_init__(self) -> None:
-        if not all(map(math.isfinite, (self.x, self.y, self.yaw, self.z))):
+        if any(finite(each) is None for each in (self.x, self.y, self.yaw, self.z)):
             raise EngineError(f"the place of a sensor must be finite: {self}")
 
 
@@ -101,7 +102,8 @@ class RangeNoise:
     share: float = 0.0
 
     def __post_init__(self) -> None:
-        if not (0.0 <= self.constant < math.inf and 0.0 <= self.share < math.inf):
+        numbers = (self.constant, self.share)
+        if not all(finite(each) is not None and each >= 0.0 for each in numbers):
             raise EngineError(f"noise on ranges must be finite and not negative: {self}")
 
 

@@ -86,7 +86,7 @@ def load_launch_text(
     Raises:
         LaunchError: As `load_launch`.
     """
-    data = text.encode() if isinstance(text, str) else text
+    data = text.encode(errors="surrogatepass") if isinstance(text, str) else text
     loader = _Loader(packages, None)
     loader.load(parse_document(data, name), None, dict(args or {}), "/")
     loader.finish(args or {})
