@@ -15,7 +15,7 @@ from gazelle.bridges import (  # noqa: F401  they teach kinds
 )
 from gazelle.bridges.conversions import ConversionContext, decoder_of, service_of
 from gazelle.bridges.graph import Graph
-from gazelle.bridges.listening import HeardTopic
+from gazelle.bridges.listening import OnDemandTopic
 from gazelle.errors import RosError, SimulationError, SimulationWarning
 from gazelle.simulation import (
     FramePrefix,
@@ -161,7 +161,7 @@ class Binding:
         view = ConversionContext(
             output.frame, self._graph.world, self._graph.stamp, self._prefix(output)
         )
-        topic = HeardTopic(
+        topic = OnDemandTopic(
             self._graph,
             output.topic,
             output.kind,

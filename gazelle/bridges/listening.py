@@ -14,7 +14,7 @@ Listen = Callable[[Callable[[Any], None]], Callable[[], None]]
 """Has a function called with every value; returns what ends that."""
 
 
-class HeardTopic:
+class OnDemandTopic:
     """A topic of a simulation: its port is subscribed while the topic has subscribers.
 
     Args:
@@ -24,7 +24,7 @@ class HeardTopic:
         listen: To the port.
         view: How the graph sees a value.
         queue_size: Of the topic.
-        latch: Whether who comes late gets the last value.
+        latch: Whether a late subscriber gets the last value.
 
     Raises:
         RosError: Values of this kind cannot be published.
@@ -68,9 +68,9 @@ class HeardTopic:
                 self._ending.pop()()
 
     def _follow(self, _peer: str) -> None:
-        self._graph.post(self._listen_if_heard)
+        self._graph.post(self._listen_if_subscribed)
 
-    def _listen_if_heard(self) -> None:
+    def _listen_if_subscribed(self) -> None:
         if self._publisher.num_connections and not self._ending:
             self._ending.append(self._listen(self.send))
         elif not self._publisher.num_connections and self._ending:

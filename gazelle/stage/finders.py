@@ -148,12 +148,12 @@ class Surroundings:
 def models_of(simulation: StageBodies) -> list[StageModel]:
     """Return the model of each body: robots, things and placed models, then actuators' parts."""
     own = [next(robot.bodies)[1] for robot in simulation.robots]
-    others = [StageModel("model", "")] * _strangers(simulation)
+    others = [StageModel("model", "")] * _other_bodies(simulation)
     riders = [rider.model for robot in simulation.robots for rider in robot.riders]
     return [*own, *simulation.things, *simulation.placed, *others, *riders]
 
 
-def _strangers(simulation: StageBodies) -> int:
+def _other_bodies(simulation: StageBodies) -> int:
     """Return the number of bodies that are of no Stage file."""
     riders = sum(len(robot.riders) for robot in simulation.robots)
     known = len(simulation.robots) + len(simulation.things) + len(simulation.placed) + riders

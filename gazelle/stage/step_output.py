@@ -33,19 +33,19 @@ class StepOutput(Output[T]):
     ) -> None:
         super().__init__(topic, kind, produce, namespace=namespace)
         self._robot = robot
-        self._stop_telling: Callable[[], None] | None = None
+        self._unsubscribe: Callable[[], None] | None = None
 
     @between_steps
     def subscribe(self, listener: Callable[[T], None]) -> Callable[[], None]:
         """Call a function with every value published; returns what ends it."""
         end = super().subscribe(listener)
-        if self._stop_telling is None:
-            self._stop_telling = self._robot.simulation.subscribe(self.publish)
+        if self._unsubscribe is None:
+            self._unsubscribe = self._robot.simulation.subscribe(self.publish)
 
         def finish() -> None:
             end()
-            if not self.wanted and self._stop_telling is not None:
-                self._stop_telling()
-                self._stop_telling = None
+            if not self.wanted and self._unsubscribe is not None:
+                self._unsubscribe()
+                self._unsubscribe = None
 
         return finish

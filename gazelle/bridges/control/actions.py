@@ -169,11 +169,11 @@ class ActionBridge:
 
         def changed(goal: Goal[Any]) -> None:
             state, result, text = goal.state, goal.result, goal.text
-            self._queue.post(lambda: self._tell(handle, state, result, text))
+            self._queue.post(lambda: self._end_goal(handle, state, result, text))
 
         return changed
 
-    def _tell(self, handle: ServerGoalHandle, state: GoalState, result: Any, text: str) -> None:
+    def _end_goal(self, handle: ServerGoalHandle, state: GoalState, result: Any, text: str) -> None:
         new = handle.get_goal_status().status in (GoalStatus.PENDING, GoalStatus.RECALLING)
         if new and state not in (GoalState.PENDING, GoalState.REJECTED, GoalState.RECALLED):
             handle.set_accepted()
@@ -195,12 +195,12 @@ class ActionBridge:
         return message
 
     def _feedback(self, handle: ServerGoalHandle) -> Callable[[Any], None]:
-        def tell(value: Any) -> None:
+        def publish(value: Any) -> None:
             message = self._server.types.feedback()
             self._codec.feedback(message, value, self._view)
             self._queue.post(lambda: self._publish(handle, message))
 
-        return tell
+        return publish
 
     @staticmethod
     def _publish(handle: ServerGoalHandle, message: Message) -> None:

@@ -15,7 +15,7 @@ from gazelle.bridges.control.decoding import command_decoder_of, simulated
 from gazelle.bridges.control.services import LOG, ManagerServices
 from gazelle.bridges.conversions import ConversionContext, service_of
 from gazelle.bridges.graph import TimedGraph
-from gazelle.bridges.listening import HeardTopic
+from gazelle.bridges.listening import OnDemandTopic
 from gazelle.control import (
     ActionPort,
     CommandPort,
@@ -109,7 +109,7 @@ class ControllerBinding:
     def _publish(self, port: StatePort[Any]) -> Callable[[], None]:
         view = ConversionContext("", self._graph.world, self._graph.stamp)
         topic = self._full(port.topic)
-        return HeardTopic(
+        return OnDemandTopic(
             self._graph, topic, port.kind, port.subscribe, view, queue_size=port.queue_size
         ).close
 

@@ -66,7 +66,9 @@ class HeadPointer:
         frames = tf2_msgs.msg.TFMessage
         for topic, static in (("/tf", False), ("/tf_static", True)):
             node.subscribe(topic, frames, partial(self._place, static=static))
-        node.subscribe("state", control_msgs.msg.JointTrajectoryControllerState, self._hear)
+        node.subscribe(
+            "state", control_msgs.msg.JointTrajectoryControllerState, self._receive_state
+        )
         self._kind = trajectory_msgs.msg.JointTrajectory
         self._command = node.advertise("command", self._kind, queue_size=1)
         self._feedback = control_msgs.msg.PointHeadFeedback
@@ -76,7 +78,7 @@ class HeadPointer:
     def _place(self, message: tf2_msgs.msg.TFMessage, *, static: bool) -> None:
         take_transforms(self._tree, message, authority="point_head_action", static=static)
 
-    def _hear(self, state: control_msgs.msg.JointTrajectoryControllerState) -> None:
+    def _receive_state(self, state: control_msgs.msg.JointTrajectoryControllerState) -> None:
         with self._news:
             self._state = state
             self._news.notify_all()

@@ -21,7 +21,7 @@ from gazelle.bridges.gazebo.spawning import (
     TAKEN,
     failure,
     is_urdf,
-    read_or_say,
+    read_entity,
 )
 from gazelle.description import Light, Model, Pose
 from gazelle.errors import EngineError, Error
@@ -57,7 +57,7 @@ class ModelServices:
 
         The text is read beside the running simulation; only what follows waits for its turn.
         """
-        found = read_or_say(request.model_xml, request.model_name)
+        found = read_entity(request.model_xml, request.model_name)
         with self._simulation.lock:
             return self._put(found, request)
 

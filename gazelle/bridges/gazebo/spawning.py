@@ -38,7 +38,7 @@ def _root(text: str) -> str:
     return found[1] if found else ""
 
 
-def read_or_say(text: str, name: str) -> Model | Light | str:
+def read_entity(text: str, name: str) -> Model | Light | str:
     """Return the model or light of a request, or the status message of a failure."""
     if not is_model(text):
         return NEITHER

@@ -34,7 +34,7 @@ class ActionController:
         kind: ``FollowJointTrajectory``, ``GripperCommand``, or one of ``FAKE``, which has no action.
         joints: That it moves.
         effort: Greatest one of a gripper, where a trajectory says none.
-        told: Joints of a gripper whose positions, added up, are its goal: one, or both of a parallel one.
+        commanded: Joints of a gripper whose positions, added up, are its goal: one, or both of a parallel one.
         may_fail: Whether a gripper that ends anywhere has done its work (``allow_failure``).
     """
 
@@ -43,7 +43,7 @@ class ActionController:
     kind: str
     joints: tuple[str, ...]
     effort: float = 0.0
-    told: tuple[str, ...] = ()
+    commanded: tuple[str, ...] = ()
     may_fail: bool = False
 
 
@@ -88,11 +88,11 @@ def _entry(given: Mapping[str, Any]) -> ActionController:
     action = f"{name}/{space}" if space else name
     effort = float(given.get("max_effort", 0.0))
     names = tuple(map(str, joints))
-    told = names if given.get("parallel") else names[:1]
+    commanded = names if given.get("parallel") else names[:1]
     if given.get("command_joint") is not None:
-        told = (str(given["command_joint"]),)
+        commanded = (str(given["command_joint"]),)
     return ActionController(
-        name, action, kind, names, effort, told, bool(given.get("allow_failure"))
+        name, action, kind, names, effort, commanded, bool(given.get("allow_failure"))
     )
 
 
@@ -112,8 +112,8 @@ def _running(node: Node) -> dict[str, ActionController]:
         claims = [joint for claim in each.claimed_resources for joint in claim.resources]
         joints = tuple(dict.fromkeys(claims))
         action, goal = _ACTIONS[kind]
-        told = joints if goal == GRIPPER else ()
+        commanded = joints if goal == GRIPPER else ()
         found[each.name] = ActionController(
-            each.name, f"{each.name}/{action}", goal, joints, told=told
+            each.name, f"{each.name}/{action}", goal, joints, commanded=commanded
         )
     return found

@@ -48,7 +48,7 @@ class FakeMotion:
             except PlanningError as error:
                 LOG.warning("initial postures: %s", error)
         if found:
-            self._say(found)
+            self._publish_positions(found)
 
     def play(
         self, kind: str, trajectory: trajectory_msgs.msg.JointTrajectory, stop: Callable[[], bool]
@@ -73,9 +73,11 @@ class FakeMotion:
                 due = np.arange(0.0, times[-1], self._period)
             for time in due.tolist():
                 self._wait(begun + int(time * 1e9), stop)
-                self._say(dict(zip(names, _between(times, positions, time), strict=True)))
+                self._publish_positions(
+                    dict(zip(names, _between(times, positions, time), strict=True))
+                )
             self._wait(begun + int(times[-1] * 1e9), stop)
-        self._say(dict(zip(names, positions[-1].tolist(), strict=True)))
+        self._publish_positions(dict(zip(names, positions[-1].tolist(), strict=True)))
 
     def _wait(self, time: int, stop: Callable[[], bool]) -> None:
         pause = threading.Event()
@@ -84,7 +86,7 @@ class FakeMotion:
                 raise NoPlanError("the motion was stopped", PlanOutcome.PREEMPTED)
             pause.wait(_LOOK_S)
 
-    def _say(self, positions: Mapping[str, float]) -> None:
+    def _publish_positions(self, positions: Mapping[str, float]) -> None:
         message = self._kind(name=[*positions], position=[*positions.values()])
         message.header.stamp = Time(nsecs=self._context.now())
         self._sender.publish(message)

@@ -55,7 +55,7 @@ class MoveGroupAction:
 
     def _work(self, goal: moveit_msgs.msg.MoveGroupGoal) -> None:
         result = moveit_msgs.msg.MoveGroupResult()
-        self._say("PLANNING")
+        self._publish_state("PLANNING")
         only = goal.planning_options.plan_only or not self._executor.allowed
         text = ""
         try:
@@ -64,7 +64,7 @@ class MoveGroupAction:
         except PlanningError as error:
             LOG.error("move_group: %s", error)
             text, result.error_code.val = error.message, outcome_of(error)
-        self._say("IDLE")
+        self._publish_state("IDLE")
         finish(self._server, result, text)
 
     def _try_often(
@@ -86,7 +86,7 @@ class MoveGroupAction:
                     raise
                 LOG.warning("move_group: planning anew: %s", error)
                 time.sleep(max(0.0, min(options.replan_delay, _LONGEST_DELAY_S)))
-                self._say("PLANNING")
+                self._publish_state("PLANNING")
             else:
                 return
 
@@ -103,7 +103,7 @@ class MoveGroupAction:
             raise NoPlanError("preempted while planning", PlanOutcome.PREEMPTED)
         if only:
             return
-        self._say("MONITOR")
+        self._publish_state("MONITOR")
         change = goal.planning_options.planning_scene_diff
         monitor = PathMonitor(
             self._context, self._scene, plan, seen, lambda: self._scene.changed(change)
@@ -149,7 +149,7 @@ class MoveGroupAction:
         )
         return plan
 
-    def _say(self, state: str) -> None:
+    def _publish_state(self, state: str) -> None:
         feedback = moveit_msgs.msg.MoveGroupFeedback(state=state)
         self._server.publish_feedback(feedback)
 
@@ -175,16 +175,16 @@ class ExecuteTrajectoryAction:
                 raise NoPlanError(
                     "the parameter allow_trajectory_execution is false", PlanOutcome.CONTROL_FAILED
                 )
-            self._say("MONITOR")
+            self._publish_state("MONITOR")
             self._executor.execute(goal.trajectory, self._server.is_preempt_requested)
             result.error_code.val = int(PlanOutcome.SUCCESS)
         except PlanningError as error:
             LOG.error("execute_trajectory: %s", error)
             text, result.error_code.val = error.message, outcome_of(error)
-        self._say("IDLE")
+        self._publish_state("IDLE")
         finish(self._server, result, text)
 
-    def _say(self, state: str) -> None:
+    def _publish_state(self, state: str) -> None:
         feedback = moveit_msgs.msg.ExecuteTrajectoryFeedback(state=state)
         self._server.publish_feedback(feedback)
 

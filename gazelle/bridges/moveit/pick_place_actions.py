@@ -85,20 +85,20 @@ class ManipulationAction(Generic[_GoalT, _ResultT]):
 
     def _work(self, goal: _GoalT) -> None:
         result: _ResultT = getattr(moveit_msgs.msg, f"{self.kind}Result")()
-        self._say("PLANNING")
+        self._publish_state("PLANNING")
         only, text = goal.planning_options.plan_only or not self._executor.allowed, ""
         try:
             plan = self._plan(goal, result)
             if self._server.is_preempt_requested():
                 raise NoPlanError("preempted while planning", PlanOutcome.PREEMPTED)
             if not only:
-                self._say("MONITOR")
+                self._publish_state("MONITOR")
                 self._do(plan, result.trajectory_stages)
             result.error_code.val = int(PlanOutcome.SUCCESS)
         except PlanningError as error:
             LOG.error("%s: %s", self.name, error)
             text, result.error_code.val = error.message, outcome_of(error)
-        self._say("IDLE")
+        self._publish_state("IDLE")
         finish(self._server, result, text)
 
     def _plan(self, goal: _GoalT, result: _ResultT) -> ManipulationPlan:
@@ -165,7 +165,7 @@ class ManipulationAction(Generic[_GoalT, _ResultT]):
 
         return {"attach": attach, "detach": detach}.get(stage.then)
 
-    def _say(self, state: str) -> None:
+    def _publish_state(self, state: str) -> None:
         feedback = getattr(moveit_msgs.msg, f"{self.kind}Feedback")(state=state)
         self._server.publish_feedback(feedback)
 

@@ -27,7 +27,7 @@ class PlannerSettings:
         own = private_values(node)
         pipelines = own.get("planning_pipelines")
         inner = pipelines.get(PIPELINE) if isinstance(pipelines, Mapping) else None
-        self._said: dict[str, dict[str, str]] = {}
+        self._received: dict[str, dict[str, str]] = {}
         self._given: Mapping[str, Any] = own if not isinstance(inner, Mapping) else {**own, **inner}
 
     def names(self, groups: list[str]) -> list[str]:
@@ -70,7 +70,7 @@ class PlannerSettings:
             given = self._configs().get(name)
             if isinstance(given, Mapping):
                 found |= {str(key): str(value) for key, value in given.items()}
-            found |= self._said.get(name, {})
+            found |= self._received.get(name, {})
         return found
 
     def set_parameters(
@@ -78,7 +78,7 @@ class PlannerSettings:
     ) -> None:
         """Set values of a planner's configuration; for one group if it is named."""
         name = f"{group}[{config}]" if group else config
-        self._said[name] = ({} if replace else self._said.get(name, {})) | dict(given)
+        self._received[name] = ({} if replace else self._received.get(name, {})) | dict(given)
 
     def _configs(self) -> Mapping[str, Any]:
         found = self._given.get("planner_configs")

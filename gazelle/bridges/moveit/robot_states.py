@@ -19,24 +19,24 @@ _PERIODS, _FRESH_S = 4.0, 1.0
 
 
 class JointStateMonitor:
-    """Hears where the joints are.
+    """Subscriber of joint states.
 
     Args:
         node: On the graph.
-        robot: Whose joints; what is said of others is passed over.
-        topic: On which it is said.
+        robot: Whose joints; others are ignored.
+        topic: Of the joint states.
     """
 
     def __init__(self, node: Node, robot: RobotModel, topic: str = "joint_states") -> None:
         self._robot = robot
         self._stamp = -1
-        self._heard, self._period = -math.inf, math.inf
+        self._received, self._period = -math.inf, math.inf
         self._positions = robot.zero()
         self._unknown = {each.name for each in robot.variables if not each.mimics}
         self._news = threading.Condition()
-        node.subscribe(topic, sensor_msgs.msg.JointState, self._hear)
+        node.subscribe(topic, sensor_msgs.msg.JointState, self._receive_states)
 
-    def _hear(self, message: sensor_msgs.msg.JointState) -> None:
+    def _receive_states(self, message: sensor_msgs.msg.JointState) -> None:
         columns = {name: column for column, name in enumerate(self._robot.names)}
         with self._news:
             for name, position in zip(message.name, message.position, strict=False):
@@ -45,7 +45,7 @@ class JointStateMonitor:
                     self._unknown.discard(name)
             self._stamp = max(self._stamp, message.header.stamp.to_nsec())
             now = time.monotonic()
-            self._period, self._heard = now - self._heard, now
+            self._period, self._received = now - self._received, now
             self._news.notify_all()
 
     def current(self) -> Floats:
@@ -77,12 +77,12 @@ class JointStateMonitor:
     def refresh(self, moment: int) -> None:
         """Wait for a message with a stamp of a moment [ns] or later, if they come regularly.
 
-        What is said seldom, or was said once, is taken as it is: the wait is a few of the times
+        A state published seldom or once is used as it is: the wait is a few of the times
         between messages, and none where these are long.
         """
         with self._news:
             period = self._period
-            if period < _REGULAR_S and time.monotonic() - self._heard < _PERIODS * period:
+            if period < _REGULAR_S and time.monotonic() - self._received < _PERIODS * period:
                 wait = min(_PERIODS * period, _FRESH_S)
                 self._news.wait_for(lambda: self._stamp >= moment, wait)
 

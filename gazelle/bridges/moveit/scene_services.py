@@ -23,7 +23,7 @@ _ADD, _REMOVE, _APPEND, _MOVE = 0, 1, 2, 3
 
 
 class SceneServices:
-    """Changes the scene as topics and services say; shows it on ``~monitored_planning_scene``.
+    """Changes the scene by topics and services; publishes it on ``~monitored_planning_scene``.
 
     Args:
         context: The robot and its scene.
@@ -59,10 +59,10 @@ class SceneServices:
         self.change(lambda: True)
 
     def _listener(self, take: Callable[[Any], bool]) -> Callable[[Any], None]:
-        def hear(message: Message) -> None:
+        def receive(message: Message) -> None:
             self.change(lambda: take(message))
 
-        return hear
+        return receive
 
     def _get(self, request: moveit_msgs.srv.GetPlanningSceneRequest) -> dict[str, Any]:
         with self._context.lock:
@@ -107,7 +107,7 @@ class SceneServices:
             NoPlanError: A part of the change could not be done.
         """
         scene = self._scene
-        if not _says_something(message):
+        if not _has_content(message):
             yield  # all that is compiled stays
             return
         colors = dict(self._colors)
@@ -236,7 +236,7 @@ def _has_octomap(world: moveit_msgs.msg.PlanningSceneWorld) -> bool:
     return bool(world.octomap.octomap.id or world.octomap.octomap.data)
 
 
-def _says_something(message: moveit_msgs.msg.PlanningScene) -> bool:
+def _has_content(message: moveit_msgs.msg.PlanningScene) -> bool:
     """Return whether a ``PlanningScene`` would change anything."""
     rules = message.allowed_collision_matrix
     return bool(

@@ -255,11 +255,11 @@ def _fill_gripper(
 ) -> None:
     """Set a gripper's target: the sum of the last positions of the joints it commands."""
     last, named = trajectory.points[-1], list(trajectory.joint_names)
-    told = [named.index(name) for name in controller.told if name in named] or [
+    commanded = [named.index(name) for name in controller.commanded if name in named] or [
         next(index for index, name in enumerate(named) if name in controller.joints)
     ]
-    command.position = sum(last.positions[index] for index in told)
-    efforts = [last.effort[index] for index in told if len(last.effort) > index]
+    command.position = sum(last.positions[index] for index in commanded)
+    efforts = [last.effort[index] for index in commanded if len(last.effort) > index]
     command.max_effort = max(efforts, default=controller.effort)
 
 

@@ -60,7 +60,7 @@ class CostmapTopics:
             kind = load_message(f"sensor_msgs/{sensor.kind}")
             node.subscribe(sensor.topic, kind, self._listener(sensor), queue_size=50)
         grid = nav_msgs.msg.OccupancyGrid
-        self._full_wanted = True
+        self._full_requested = True
         self._grids = node.advertise(
             f"~{name}/costmap", grid, queue_size=1, on_connect=self._want_full
         )
@@ -75,7 +75,7 @@ class CostmapTopics:
 
     def _want_full(self, peer: str) -> None:
         del peer
-        self._full_wanted = True
+        self._full_requested = True
 
     def _listener(self, sensor: SensorTopic) -> Callable[[Measurement], None]:
         def take(message: Measurement) -> None:
@@ -131,7 +131,7 @@ class CostmapTopics:
             grid = listener.take() if listener is not None else None
             if grid is not None and isinstance(layer, StaticLayer):
                 layer.set_map(grid, self.costmap)
-                self._full_wanted = True
+                self._full_requested = True
 
     def _see_map(self) -> None:
         """Set the pose of a rolling costmap's frame on the map in static layers."""
@@ -185,8 +185,8 @@ class CostmapTopics:
             self._outlines.publish(self._outline(self.pose, now))
         if not self._grids.num_connections and not self._updates.num_connections:
             return
-        if self._full_wanted or self._setup.always_full or self.costmap.rolling:
-            self._full_wanted = False
+        if self._full_requested or self._setup.always_full or self.costmap.rolling:
+            self._full_requested = False
             self._grids.publish(self._grid(now))
         else:
             self._updates.publish(self._update(self.costmap.updated, now))

@@ -32,10 +32,10 @@ class StartDiagnosis:
     ) -> None:
         self._node, self._what, self._patience = node, what, patience
         self._since = time.monotonic()
-        self._said = False
+        self._reported = False
 
     def look(self, *, waiting: bool) -> str | None:
-        """Warn if it is time to; returns what was said.
+        """Warn if it is time; returns the warning.
 
         Args:
             waiting: Whether the node waits for something now.
@@ -43,7 +43,7 @@ class StartDiagnosis:
         if not waiting:
             self._since = time.monotonic()
             return None
-        if self._said or time.monotonic() - self._since < self._patience:
+        if self._reported or time.monotonic() - self._since < self._patience:
             return None
         missing = self._what()
         clock = self._node.clock
@@ -53,7 +53,7 @@ class StartDiagnosis:
             )
         if not missing:
             return None
-        self._said = True
+        self._reported = True
         text = f"{self._node.name} waits for: {'; '.join(missing)}"
         warnings.warn(NavigationWarning(text), stacklevel=2)
         return text

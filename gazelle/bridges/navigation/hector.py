@@ -89,10 +89,10 @@ class HectorNode(MappingNode):
             start = self.frames.pose(self._whole, self._base, stamp)
         changed = self.slam.update(ranges, angles, laser, start)
         self._place = self.slam.pose if odom is None else composed(self.slam.pose, inverse(odom))
-        self._say(message.header.stamp, stamp, odom)
+        self._publish_pose(message.header.stamp, stamp, odom)
         return changed
 
-    def _say(self, stamp: Time, at: int, odom: Pose2 | None) -> None:
+    def _publish_pose(self, stamp: Time, at: int, odom: Pose2 | None) -> None:
         """Publish the pose, and the requested transforms."""
         pose = self._stamped()
         pose.header.frame_id, pose.header.stamp = self._whole, stamp

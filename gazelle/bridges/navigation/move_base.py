@@ -72,7 +72,7 @@ class MoveBaseNode:
             "move_base/goal", move_base_msgs.msg.MoveBaseActionGoal, queue_size=1
         )
         node.subscribe("move_base_simple/goal", pose, self._forward)
-        node.subscribe("odom", nav_msgs.msg.Odometry, self._hear)
+        node.subscribe("odom", nav_msgs.msg.Odometry, self._receive_odometry)
         node.serve("~make_plan", nav_msgs.srv.GetPlan, self._make_plan)
         node.serve("~clear_costmaps", std_srvs.srv.Empty, self._clear)
         self._server = SimpleActionServer(
@@ -114,7 +114,7 @@ class MoveBaseNode:
             state = self._state()
             if state is None or self._law.goal is None:
                 return
-            self._tell(self._law.update(now / SECOND, state), state, now)
+            self._send_step(self._law.update(now / SECOND, state), state, now)
 
     def _missing(self) -> list[str]:
         whole, local = self.stack.whole.costmap.frame, self.stack.local.costmap.frame
@@ -130,7 +130,7 @@ class MoveBaseNode:
             return None
         return RobotState(whole, local, self._velocity)
 
-    def _hear(self, message: nav_msgs.msg.Odometry) -> None:
+    def _receive_odometry(self, message: nav_msgs.msg.Odometry) -> None:
         twist = message.twist.twist
         self._velocity = twist.linear.x, twist.linear.y, twist.angular.z
 
@@ -176,7 +176,7 @@ class MoveBaseNode:
         to_whole = self.frames.pose(self.stack.whole.costmap.frame, frame)
         return None if to_whole is None else composed(to_whole, pose_of(target.pose))
 
-    def _tell(self, step: MoveStep, state: RobotState, now: int) -> None:
+    def _send_step(self, step: MoveStep, state: RobotState, now: int) -> None:
         """Apply and publish the result of a step."""
         whole, local = self.stack.whole.costmap.frame, self.stack.local.costmap.frame
         feedback = move_base_msgs.msg.MoveBaseFeedback()

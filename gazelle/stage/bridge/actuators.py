@@ -26,7 +26,7 @@ class ActuatorTopics:
         count = len(at.simulation.devices.actuators.get(at.robot.index, []))
         self._publishers = [at.advertise("actuator", self._number, k, count) for k in range(count)]
         self._subscribers = [
-            at.subscribe(f"cmd_actuator_{kind}", self._number, self._told(k, act), k, count)
+            at.subscribe(f"cmd_actuator_{kind}", self._number, self._command(k, act), k, count)
             for k in range(count)
             for kind, act in (("speed", Actuator.set_speed), ("position", Actuator.go_to))
         ]
@@ -35,17 +35,17 @@ class ActuatorTopics:
         """Return an actuator, which is another object when models came or went."""
         return self._simulation.actuator(self._robot.name, which)
 
-    def _told(
+    def _command(
         self, which: int, act: Callable[[Actuator, float, Worlds], None]
     ) -> Callable[[std_msgs.msg.Float64], None]:
         worlds = np.array([self._world])
 
-        def told(message: std_msgs.msg.Float64) -> None:
+        def receive(message: std_msgs.msg.Float64) -> None:
             if math.isfinite(message.data):
                 with self._simulation.lock:
                     act(self._actuator(which), message.data, worlds)
 
-        return told
+        return receive
 
     def publish(self) -> None:
         """Publish what has subscribers."""
@@ -55,7 +55,7 @@ class ActuatorTopics:
                 publisher.publish(self._number(float(position)))
 
     def close(self) -> None:
-        """Publish and hear no more."""
+        """Stop publishing and subscribing."""
         for publisher in self._publishers:
             publisher.close()
         for subscriber in self._subscribers:

@@ -80,7 +80,10 @@ class StageDoor(Closeable):
         self._topics = [RobotTopics(robot, messages, metres=metres) for robot in robots]
         self._inputs = [
             RobotInputs(
-                robot, flat_poses=asked.flat_poses, told=self._watchdog.told, placed=self._show
+                robot,
+                flat_poses=asked.flat_poses,
+                commanded=self._watchdog.note_command,
+                placed=self._show,
             )
             for robot in robots
         ]

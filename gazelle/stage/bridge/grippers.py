@@ -27,19 +27,19 @@ class GripperTopics:
         count = len(at.simulation.devices.grippers.get(at.robot.index, ()))
         self._publishers = [at.advertise("gripper", self._state, k, count) for k in range(count)]
         self._subscribers = [
-            at.subscribe("cmd_gripper", text, self._told(k), k, count) for k in range(count)
+            at.subscribe("cmd_gripper", text, self._command(k), k, count) for k in range(count)
         ]
 
-    def _told(self, which: int) -> Callable[[std_msgs.msg.String], None]:
+    def _command(self, which: int) -> Callable[[std_msgs.msg.String], None]:
         worlds = np.array([self._world])
 
-        def told(message: std_msgs.msg.String) -> None:
+        def receive(message: std_msgs.msg.String) -> None:
             word = message.data.strip().lower()
             if word in COMMANDS:
                 with self._simulation.lock:
                     self._simulation.gripper(self._robot.name, which).do(word, worlds)
 
-        return told
+        return receive
 
     def publish(self, stamp: Time) -> None:
         """Publish what has subscribers."""
@@ -53,7 +53,7 @@ class GripperTopics:
                 publisher.publish(message)
 
     def close(self) -> None:
-        """Publish and hear no more."""
+        """Stop publishing and subscribing."""
         for publisher in self._publishers:
             publisher.close()
         for subscriber in self._subscribers:

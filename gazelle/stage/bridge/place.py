@@ -42,12 +42,12 @@ class GraphRobot:
         self,
         name: str,
         kind: type[Message],
-        told: Callable[[Any], None],
+        callback: Callable[[Any], None],
         which: int = 0,
         count: int = 1,
     ) -> Subscriber:
         """Subscribe to a topic; its name is found as ``advertise`` finds it."""
-        return self.node.subscribe(self._topic(name, which, count), kind, told, _QUEUE)
+        return self.node.subscribe(self._topic(name, which, count), kind, callback, _QUEUE)
 
     def frame(self, name: str, which: int = 0, count: int = 1) -> str:
         """Return a frame of the robot, or of one of several devices."""

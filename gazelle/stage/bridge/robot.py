@@ -218,7 +218,7 @@ class RobotInputs:
     Args:
         at: The robot on the graph.
         flat_poses: Whether ``cmd_pose`` carries ``geometry_msgs/Pose2D``.
-        told: Called with the robot's index at each velocity command.
+        commanded: Called with the robot's index at each velocity command.
         placed: Called when it was put somewhere.
     """
 
@@ -227,11 +227,11 @@ class RobotInputs:
         at: GraphRobot,
         *,
         flat_poses: bool,
-        told: Callable[[int], None],
+        commanded: Callable[[int], None],
         placed: Callable[[], None],
     ) -> None:
         self._simulation, self._robot, self._world = at.simulation, at.robot, at.world
-        self._told, self._placed = told, placed
+        self._commanded, self._placed = commanded, placed
         flat = "geometry_msgs/Pose2D" if flat_poses else "geometry_msgs/Pose"
         self._subscribers = [
             at.subscribe(name, load_message(kind), self._between(act))
@@ -258,7 +258,7 @@ class RobotInputs:
         if not all(map(math.isfinite, command)):
             return
         self._simulation.commands[self._world, self._robot.index] = command
-        self._told(self._robot.index)
+        self._commanded(self._robot.index)
 
     def place(self, pose: geometry_msgs.msg.Pose) -> None:
         """Set the pose in the world; height, roll and pitch are ignored."""

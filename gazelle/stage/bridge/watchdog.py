@@ -24,7 +24,7 @@ class Watchdog:
         self._timeout_ns = round(timeout * 1e9) if np.isfinite(timeout) else 0
         self._due = np.full(len(simulation.robots), np.iinfo(np.int64).max, np.int64)
 
-    def told(self, robot: int) -> None:
+    def note_command(self, robot: int) -> None:
         """Record a command of a robot."""
         if self._timeout_ns > 0:
             self._due[robot] = self._simulation.clock.now_ns + self._timeout_ns
