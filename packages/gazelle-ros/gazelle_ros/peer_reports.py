@@ -19,7 +19,7 @@ class _Account:
     """Reports on one peer."""
 
     said: float
-    untold: int = 0
+    unreported: int = 0
 
 
 class PeerReports:
@@ -41,9 +41,9 @@ class PeerReports:
         with self._lock:
             account = self._accounts.get((what, peer))
             if account is not None and now - account.said < _PAUSE_S:
-                account.untold += 1
+                account.unreported += 1
                 return
-            more = f" ({account.untold} more since the last report)" if account else ""
+            more = f" ({account.unreported} more since the last report)" if account else ""
             if len(self._accounts) >= _MOST:
                 self._accounts.pop(next(iter(self._accounts)))
             self._accounts[what, peer] = _Account(now)

@@ -191,7 +191,7 @@ class Publication:
                 first += self._last
             link.start(first)
             self.remote = (*self.remote, link)
-        self._tell(link.peer, connected=True)
+        self._notify_peer(link.peer, connected=True)
 
     def attach(self, link: LocalLink) -> None:
         """Send to a subscription in the same process, from the latched message on."""
@@ -200,7 +200,7 @@ class Publication:
             self.local = (*self.local, link)
             if self.latching and self._last is not None:
                 link.send(None, self._last[4:])
-        self._tell(link.peer, connected=True)
+        self._notify_peer(link.peer, connected=True)
 
     def detach(self, link: LocalLink) -> None:
         """Undo `attach`."""
@@ -208,17 +208,17 @@ class Publication:
             known = link in self.local
             self.local = tuple(other for other in self.local if other is not link)
         if known:
-            self._tell(link.peer, connected=False)
+            self._notify_peer(link.peer, connected=False)
 
     def _lost(self, link: OutboundLink) -> None:
         with self._lock:
             self.remote = tuple(other for other in self.remote if other is not link)
-        self._tell(link.peer, connected=False)
+        self._notify_peer(link.peer, connected=False)
 
-    def _tell(self, peer: str, *, connected: bool) -> None:
+    def _notify_peer(self, peer: str, *, connected: bool) -> None:
         for publisher in self.publishers:
             if publisher.introduced:
-                self._tell_one(publisher, peer, connected=connected)
+                self._notify_publisher(publisher, peer, connected=connected)
 
     def introduce(self, publisher: Publisher) -> None:
         """Report present subscribers to a further publisher, as in roscpp.
@@ -228,9 +228,9 @@ class Publication:
         publisher.introduced = True
         peers = [link.peer for link in self.remote] + [link.peer for link in self.local]
         for peer in peers:
-            self._tell_one(publisher, peer, connected=True)
+            self._notify_publisher(publisher, peer, connected=True)
 
-    def _tell_one(self, publisher: Publisher, peer: str, *, connected: bool) -> None:
+    def _notify_publisher(self, publisher: Publisher, peer: str, *, connected: bool) -> None:
         hook = publisher.on_connect if connected else publisher.on_disconnect
         if hook is not None:
             self._loop.submit(functools.partial(self._call, hook, peer))

@@ -84,7 +84,7 @@ class ReconfigureServer:
             self._set,
         )
         self._descriptions.publish(self._describe())
-        self._tell(tuning.values)
+        self._publish_values(tuning.values)
 
     def close(self) -> None:
         """Remove it from the graph."""
@@ -102,9 +102,9 @@ class ReconfigureServer:
             for each in getattr(request.config, kind)
             if each.name in self._tuning.tunables
         }
-        return {"config": self._tell(self._tuning.send(**wanted))}
+        return {"config": self._publish_values(self._tuning.send(**wanted))}
 
-    def _tell(self, values: Values) -> dynamic_reconfigure.msg.Config:
+    def _publish_values(self, values: Values) -> dynamic_reconfigure.msg.Config:
         config = _config(values)
         self._updates.publish(config)
         for name, value in values.items():

@@ -19,7 +19,7 @@ _CALM_S = 5.0
 _ALERT_S = 0.25
 
 
-def _tell(hook: Callable[[], None]) -> None:
+def _call_hook(hook: Callable[[], None]) -> None:
     """Call a hook; the master may be gone again already."""
     try:
         hook()
@@ -129,7 +129,7 @@ class Registrar:
         for key in node.parameters.followed():
             self._follow(key)
         for hook in list(node.on_new_master):
-            node.loop.submit(functools.partial(_tell, hook))
+            node.loop.submit(functools.partial(_call_hook, hook))
 
     def _call(self, method: str, *params: Any) -> None:
         node = self._node

@@ -55,7 +55,7 @@ class ServerGoalHandle:
         self.goal = goal
         self.finished = 0
         """When it ended [ns]; 0 before."""
-        self.told = time.monotonic()
+        self.reported_at = time.monotonic()
         """When it came, or the last feedback was sent, on the monotonic clock."""
 
     def get_goal(self) -> Any:
@@ -130,7 +130,7 @@ class ServerGoalHandle:
             self._refuse()
         else:
             self._server.publish_feedback(self.status, feedback)
-            self.told = time.monotonic()
+            self.reported_at = time.monotonic()
 
     @staticmethod
     def _refuse() -> bool:
@@ -287,7 +287,7 @@ class ActionServer:
     def settle(self, goal: ServerGoalHandle) -> None:
         """Wait until clients in other processes had time for earlier messages; see `_PEER_S`."""
         publication = self.node.publication(self._status.name)
-        left = goal.told + _PEER_S - time.monotonic()
+        left = goal.reported_at + _PEER_S - time.monotonic()
         if left > 0 and publication is not None and publication.remote:
             time.sleep(left)
 

@@ -68,6 +68,6 @@ def _channel(writer: Any, connection: Connection, schemas: dict[tuple[str, str],
     key = (connection.type, definition)
     if key not in schemas:
         schemas[key] = writer.register_schema(connection.type, "ros1msg", definition.encode())
-    told = {name: connection.header[name] for name in _METADATA if name in connection.header}
-    number: int = writer.register_channel(connection.topic, "ros1", schemas[key], told)
+    metadata = {name: connection.header[name] for name in _METADATA if name in connection.header}
+    number: int = writer.register_channel(connection.topic, "ros1", schemas[key], metadata)
     return number

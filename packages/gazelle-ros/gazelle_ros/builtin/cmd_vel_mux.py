@@ -92,7 +92,7 @@ class CmdVelMux(CallbackWork):
         self.inputs: list[MuxInput] = []
         self.control = Control()
         self._active = node.advertise("~active", std_msgs.msg.String, queue_size=1, latch=True)
-        self._tell(IDLE)
+        self._publish_active(IDLE)
         settings = settings_of(node, CmdVelMuxSettings)
         self._configure(settings)
         self._tuned = TunedSettings(node, settings, self._configure)
@@ -117,7 +117,7 @@ class CmdVelMux(CallbackWork):
             self.inputs = inputs
             if self.control.holder is not None:
                 self.control.holder = None
-                self._tell(IDLE)
+                self._publish_active(IDLE)
         self._subscribers = [
             self.node.subscribe(f"~{each.topic}", geometry_msgs.msg.Twist, self._taker(each))
             for each in inputs
@@ -132,7 +132,7 @@ class CmdVelMux(CallbackWork):
                 if not self.control.request(source, now):
                     return
                 if before is not source:
-                    self._tell(source.name)
+                    self._publish_active(source.name)
                 if self._output is not None:
                     self._output.publish(message)
 
@@ -140,9 +140,9 @@ class CmdVelMux(CallbackWork):
 
     def _expire(self, now: int) -> None:
         if self.control.expire(now):
-            self._tell(IDLE)
+            self._publish_active(IDLE)
 
-    def _tell(self, name: str) -> None:
+    def _publish_active(self, name: str) -> None:
         self._active.publish(std_msgs.msg.String(data=name))
 
 

@@ -201,7 +201,7 @@ class Mux:
         self._sources: dict[str, Any] = {}
         self._selected = self.NONE
         self._text = std_msgs.msg.String
-        self._told = node.advertise("~selected", self._text, latch=True)
+        self._selected_publisher = node.advertise("~selected", self._text, latch=True)
         for source in sources:
             self._add(node.resolve(source))
         self._choose(node.resolve(sources[0]))
@@ -222,7 +222,7 @@ class Mux:
 
     def _choose(self, topic: str) -> str:
         previous, self._selected = self._selected, topic
-        self._told.publish(self._text(data=topic))
+        self._selected_publisher.publish(self._text(data=topic))
         return previous
 
     def _on_select(self, request: topic_tools.srv.MuxSelectRequest) -> Any:

@@ -122,7 +122,7 @@ class VelocitySmoother:
         self._lock = threading.Lock()
         self._target = self._last = self._robot = (0.0, 0.0)
         self._periods: deque[float] = deque(maxlen=_PERIODS)
-        self._heard = 0
+        self._received_at = 0
         self._active = False
         twist = geometry_msgs.msg.Twist
         self._output = node.advertise("~smooth_cmd_vel", twist, queue_size=1)
@@ -139,14 +139,14 @@ class VelocitySmoother:
         """Handle a command."""
         with self._lock:
             now = self._node.clock.now()
-            self._periods.append((now - self._heard) / SECOND)
-            self._heard, self._active = now, True
+            self._periods.append((now - self._received_at) / SECOND)
+            self._received_at, self._active = now, True
             self._target = self.settings.bounded((message.linear.x, message.angular.z))
 
     def step(self) -> Speeds | None:
         """Return the next command; None while there is nothing to do."""
         with self._lock:
-            silent = (self._node.clock.now() - self._heard) / SECOND
+            silent = (self._node.clock.now() - self._received_at) / SECOND
             usual = self._usual_period()
             if self._active and usual > 0.0 and silent > min(_SILENT_PERIODS * usual, _SILENCE_S):
                 self._active = False

@@ -209,8 +209,8 @@ def _launch(args: argparse.Namespace, plan: LaunchPlan, packages: Packages) -> i
         say_line(f"{len(plan.tests)} tests are not run; --test runs them")
     launch = Launch(plan, options, say=say_line, packages=packages)
     if not args.no_summary:
-        told = describing.summary if args.verbose else describing.outline
-        sys.stdout.write(f"{told(plan)}\nROS_MASTER_URI={launch.master_uri}\n\n")
+        describe = describing.summary if args.verbose else describing.outline
+        sys.stdout.write(f"{describe(plan)}\nROS_MASTER_URI={launch.master_uri}\n\n")
     with _same_terminal(), launch, stopping(launch.end) as request:
         try:
             launch.start()

@@ -88,7 +88,7 @@ def _set(args: argparse.Namespace) -> int:
             done = set_parameter(graph, args.name, Path(args.binfile).read_bytes())
         else:
             done = set_from_text(graph, args.name, args.value)
-    _tell(args, done)
+    _report(args, done)
     return 0
 
 
@@ -103,7 +103,7 @@ def _load(args: argparse.Namespace) -> int:
     return 0
 
 
-def _tell(args: argparse.Namespace, done: list[tuple[str, Any]]) -> None:
+def _report(args: argparse.Namespace, done: list[tuple[str, Any]]) -> None:
     if args.verbose:
         for name, value in done:
             sys.stdout.write(f"set parameter [{name}] to [{value}]\n")

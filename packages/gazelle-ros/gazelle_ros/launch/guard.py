@@ -61,11 +61,11 @@ class LaunchWatchdog:
 
     def watch(self, group: int) -> None:
         """Register a process group to end if this process is killed."""
-        self._tell(f"watch {group}")
+        self._send(f"watch {group}")
 
     def forget(self, group: int) -> None:
         """Unregister a process group that has ended; its number may be another's by now."""
-        self._tell(f"forget {group}")
+        self._send(f"forget {group}")
 
     def close(self) -> None:
         """Stop: all groups have ended."""
@@ -79,7 +79,7 @@ class LaunchWatchdog:
                 process.stdin.close()
         process.wait()
 
-    def _tell(self, line: str) -> None:
+    def _send(self, line: str) -> None:
         with self._lock:
             if self._process is not None:
                 _write(self._process, line)

@@ -166,14 +166,14 @@ class OutboundLink:
             self._loop.watch(self._sock, READ | WRITE, self._ready)
 
     def _ready(self, events: int) -> None:
-        if events & READ and not self._hear():
+        if events & READ and not self._receive():
             self.close()
             return
         if events & WRITE:
             with self._lock:
                 self._flush()
 
-    def _hear(self) -> bool:
+    def _receive(self) -> bool:
         """Check the connection, on which subscribers send nothing more; False if it is closed."""
         try:
             return bool(self._sock.recv(4096, self._flags))

@@ -163,7 +163,7 @@ class MessagePublisher:
         message = self.message(arguments)
         what = f"[{message}]" if self._verbose else "message"
         rest = f" for {ONCE_S} seconds" if once else ". Press ctrl-C to terminate"
-        self._say(f"publishing and latching {what}{rest}")
+        self._write_line(f"publishing and latching {what}{rest}")
         self.publish(message)
         self._stop.wait(ONCE_S if once else None)
 
@@ -181,7 +181,7 @@ class MessagePublisher:
             if fresh:
                 self._fill(message, arguments)
             if self._verbose:
-                self._say(f"publishing {message}")
+                self._write_line(f"publishing {message}")
             self.publish(message)
             if not rate.sleep(self._stop.is_set):
                 break
@@ -200,7 +200,7 @@ class MessagePublisher:
                 continue
             message = self.message(arguments)
             if self._verbose:
-                self._say(f"publishing {message}")
+                self._write_line(f"publishing {message}")
             self.publish(message)
             if once:
                 self._stop.wait(ONCE_S)
@@ -214,7 +214,7 @@ class MessagePublisher:
             if self._stop.wait(0.01):
                 return
 
-    def _say(self, text: str) -> None:
+    def _write_line(self, text: str) -> None:
         self._out.write(f"{text}\n")
         self._out.flush()
 

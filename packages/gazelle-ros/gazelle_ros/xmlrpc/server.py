@@ -108,7 +108,7 @@ class XmlRpcServer:
     def _drop_idle(self, number: int) -> int:
         """Close the connections that were silent longest."""
         idle = [connection for connection in self._connections if connection.idle]
-        idle.sort(key=lambda connection: connection.last_heard)
+        idle.sort(key=lambda connection: connection.last_received)
         for connection in idle[:number]:
             connection.close()
         return min(number, len(idle))
@@ -202,7 +202,7 @@ class _Connection:
         self._working = False
         """True if a long document is read or written for it."""
         self._events = READ
-        self.last_heard = time.monotonic()
+        self.last_received = time.monotonic()
         loop.watch(sock, READ, self._ready)
 
     @property
@@ -210,7 +210,7 @@ class _Connection:
         """True if no request and no answer is under way."""
         if self._working:
             return False
-        silent = time.monotonic() - self.last_heard > self._server.limits.idle_seconds
+        silent = time.monotonic() - self.last_received > self._server.limits.idle_seconds
         return not self._outgoing and (silent or not self._reader)
 
     def close(self) -> None:
@@ -237,7 +237,7 @@ class _Connection:
         if not data:
             self.close()
             return False
-        self.last_heard = time.monotonic()
+        self.last_received = time.monotonic()
         if not self._closing:
             self._reader.feed(data)
         return True

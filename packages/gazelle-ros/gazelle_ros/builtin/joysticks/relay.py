@@ -109,7 +109,7 @@ class JoystickRelay:
         self._markers = node.advertise("text_marker", marker, queue_size=1, latch=True)
         self._commands = node.advertise("joy_vel_out", twist, queue_size=1)
         self._flags = node.advertise("joy_priority", flag, queue_size=1, latch=True)
-        self._tell()
+        self._publish_state()
         node.subscribe("joy_vel_in", twist, self._take, queue_size=1)
         actions = twist_mux_msgs.msg
         turbo = actions.JoyTurboAction
@@ -133,7 +133,7 @@ class JoystickRelay:
         """Switch the priority of the joystick on, with a command of zeros, or off."""
         with self._lock:
             self.priority = not self.priority
-            self._tell()
+            self._publish_state()
             if self.priority:
                 self._commands.publish(geometry_msgs.msg.Twist())
 
@@ -142,7 +142,7 @@ class JoystickRelay:
             if self.priority:
                 self._commands.publish(self.turbo.scaled(twist))
 
-    def _tell(self) -> None:
+    def _publish_state(self) -> None:
         self._flags.publish(std_msgs.msg.Bool(data=self.priority))
         self._markers.publish(self._marker())
 

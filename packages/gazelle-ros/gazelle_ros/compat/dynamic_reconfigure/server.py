@@ -61,7 +61,7 @@ class Server:
         self.set_service = Service(
             f"{self.ns}set_parameters",
             dynamic_reconfigure.srv.Reconfigure,
-            self._asked,
+            self._handle_request,
         )
 
     def update_configuration(self, changes: dict[str, Any]) -> Config:
@@ -105,7 +105,7 @@ class Server:
         self.update_topic.publish(encode_config(taken, flat=False))
         return taken
 
-    def _asked(self, request: dynamic_reconfigure.srv.ReconfigureRequest) -> Any:
+    def _handle_request(self, request: dynamic_reconfigure.srv.ReconfigureRequest) -> Any:
         changes = decode_config(request.config)
         with self.mutex:
             return {"config": encode_config(self.update_configuration(changes), flat=False)}
