@@ -95,7 +95,7 @@ def _advice(each: Problem) -> tuple[str | None, ...]:
 
 
 def _line(each: Problem) -> str:
-    """Return a finding without its reasons; the line says which element it is about, if any."""
+    """Return a finding without its reasons; the line names its element, if any."""
     file = None if each.file is None else _near(each.file)
     element = each.element if each.line is None else None
     text = describe(each.message, file=file, line=each.line, element=element)

@@ -1,6 +1,6 @@
 """Convert between formats. Readable is all that 'gazelle run' takes: SDF, URDF,
 xacro, bundled names. Writable are SDF, URDF and MJCF. What the new format
-cannot say is an error, or a warning that names it. Meshes are not copied.
+cannot express is an error, or a warning that names it. Meshes are not copied.
 
   gazelle convert robot.urdf.xacro robot.sdf
   gazelle convert office.world robot.urdf --model robot

@@ -55,7 +55,7 @@ def run(args: argparse.Namespace) -> int:
     from gazelle.training import choose_progress, evaluate, train
 
     options = environment_options(args)
-    _tell_files(options)
+    _print_files(options)
     result = train(
         _TASK,
         steps=args.steps,
@@ -70,8 +70,8 @@ def run(args: argparse.Namespace) -> int:
     sys.stdout.write(f"trained:  {showing.training(result, indent=10)}\n")
     folder = result.run.folder
     again = showing.program()
-    asked = {name: options[name] for name in ("goals", "starts") if name in options}
-    found = evaluate(folder, episodes=args.episodes, seed=args.seed + 10_000, **asked)
+    requested = {name: options[name] for name in ("goals", "starts") if name in options}
+    found = evaluate(folder, episodes=args.episodes, seed=args.seed + 10_000, **requested)
     sys.stdout.write(f"evaluated on {found.episodes} fresh goals:\n{showing.evaluation(found)}")
     sys.stdout.write(
         f"in all {time.perf_counter() - began:.0f} s; the run's files are in {folder}\n"
@@ -83,7 +83,7 @@ def run(args: argparse.Namespace) -> int:
     return 0
 
 
-def _tell_files(options: dict[str, Any]) -> None:
+def _print_files(options: dict[str, Any]) -> None:
     """Print the files that are loaded."""
     from gazelle import assets
 

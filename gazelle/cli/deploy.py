@@ -133,7 +133,7 @@ def _limits(args: argparse.Namespace, policy: Policy) -> SafetyLimits:
     )
 
 
-def _report(outcomes: list[GoalResult], overruled: int, asked: int) -> int:
+def _report(outcomes: list[GoalResult], overruled: int, required: int) -> int:
     """Print the outcomes of goals; returns the exit code."""
     for each in outcomes:
         sys.stdout.write(
@@ -142,4 +142,4 @@ def _report(outcomes: list[GoalResult], overruled: int, asked: int) -> int:
     reached = sum(each.outcome == "reached" for each in outcomes)
     if outcomes:
         sys.stdout.write(f"reached {reached} of {len(outcomes)}, overruled {overruled} times\n")
-    return 0 if reached >= asked else 1
+    return 0 if reached >= required else 1

@@ -1,4 +1,4 @@
-"""Checks of one file or text: what the reader says, and what the engine and the plugins say."""
+"""Checks of one file or text: findings of the reader, the engine and the plugins."""
 
 from __future__ import annotations
 

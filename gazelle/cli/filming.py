@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gazelle.cli.grounding import add_ground
-from gazelle.cli.spawning import spawn, wanted
+from gazelle.cli.spawning import parse_spawn, spawn
 from gazelle_ros.cli.parsing import (
     add_environment_options,
     add_file_options,
@@ -47,7 +47,7 @@ def add_source(parser: argparse.ArgumentParser) -> None:
     look.add_argument(
         "--spawn",
         metavar="ROBOT[@X,Y[,YAW]]",
-        type=wanted,
+        type=parse_spawn,
         action="append",
         default=[],
         help="also put a robot there (repeatable)",

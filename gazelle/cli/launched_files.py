@@ -137,12 +137,12 @@ def _options(parse: _Parse, node: NodePlan) -> argparse.Namespace:
         Error: They cannot be parsed.
     """
     words = parse_arguments(node_arguments(node), node.name).plain
-    said = io.StringIO()
+    errors = io.StringIO()
     try:
-        with contextlib.redirect_stderr(said):
+        with contextlib.redirect_stderr(errors):
             return parse(words)
     except SystemExit:
-        last = said.getvalue().strip().rpartition("\n")[2]
+        last = errors.getvalue().strip().rpartition("\n")[2]
         raise Error(f"the arguments of {node.full_name} are wrong: {last}") from None
 
 

@@ -48,12 +48,12 @@ def add_moveit(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def start_wanted_controllers(sim: Simulation, args: argparse.Namespace) -> None:
-    """Load and start controllers, if they are asked for.
+def start_requested_controllers(sim: Simulation, args: argparse.Namespace) -> None:
+    """Load and start controllers on request.
 
     Raises:
         ResolveError: A file or package is not there.
-        ControlError: The file says no controllers, or one cannot be loaded.
+        ControlError: The file names no controllers, or one cannot be loaded.
     """
     if args.controllers is None and not args.moveit:
         return
@@ -126,7 +126,7 @@ def _find(robot: Robot, uri: str) -> Path | None:
 
 
 def _start(robot: Robot, file: Path, *, verbose: bool) -> None:
-    """Load all controllers of a file; those whose joints others have by then do not run."""
+    """Load all controllers of a file; those whose joints others have claimed do not run."""
     import yaml
 
     try:
@@ -137,13 +137,13 @@ def _start(robot: Robot, file: Path, *, verbose: bool) -> None:
         raise ControlError(f"{file} is no YAML: {error}") from error
     if not isinstance(given, Mapping):
         raise ControlError(f"{file} has no controllers", hint="names, each with type and joints")
-    told = {
+    configured = {
         name: each for name, each in given.items() if isinstance(each, Mapping) and "type" in each
     }
-    if not told:
+    if not configured:
         raise ControlError(f"{file} has no controllers", hint="names, each with type and joints")
     idle: dict[str, str] = {}
-    for name, parameters in told.items():
+    for name, parameters in configured.items():
         robot.controllers.load(name, parameters)
         try:
             robot.controllers.start(name)

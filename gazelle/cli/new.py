@@ -93,23 +93,23 @@ def write_task(name: str, folder: Path) -> list[Path]:
         hint = "letters and digits, such as Balance"
         raise TaskError(f"'{name}' cannot be the name of a task", hint=hint)
     stem = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).lower()
-    wanted = {folder / pattern.format(stem): source for source, pattern in _FILES.items()}
-    for file in wanted:
+    sources = {folder / pattern.format(stem): source for source, pattern in _FILES.items()}
+    for file in sources:
         if file.exists():
             hint = "give another name, or another folder with --out"
             raise TaskError(f"{file} is there already", hint=hint)
     folder.mkdir(parents=True, exist_ok=True)
     home = resources.files("gazelle.cli") / "templates"
     with contextlib.ExitStack() as undo:
-        _write_all(wanted, home, name, stem, undo)
+        _write_all(sources, home, name, stem, undo)
         undo.pop_all()
-    return list(wanted)
+    return list(sources)
 
 
 def _write_all(
-    wanted: dict[Path, str], home: Traversable, name: str, stem: str, undo: contextlib.ExitStack
+    sources: dict[Path, str], home: Traversable, name: str, stem: str, undo: contextlib.ExitStack
 ) -> None:
-    for file, source in wanted.items():
+    for file, source in sources.items():
         undo.callback(file.unlink, missing_ok=True)
         text = (home / f"{source}.txt").read_text(encoding="utf-8")
         text = text.replace("TESTFILE", f"test_{stem}").replace("TASKFILE", stem)

@@ -27,9 +27,9 @@ from typing import TYPE_CHECKING
 
 from gazelle.cli.descriptions_beside import descriptions_beside
 from gazelle.cli.grounding import add_ground
-from gazelle.cli.moveit_beside import add_moveit, moveit_beside, start_wanted_controllers
+from gazelle.cli.moveit_beside import add_moveit, moveit_beside, start_requested_controllers
 from gazelle.cli.rosbridge_beside import add_rosbridge, rosbridge_beside
-from gazelle.cli.spawning import spawn, wanted
+from gazelle.cli.spawning import parse_spawn, spawn
 from gazelle.cli.viewing import add_view, viewing
 from gazelle.errors import SimulationError
 from gazelle_ros.base.argument_types import positive_float
@@ -81,7 +81,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--spawn",
         metavar="ROBOT[@X,Y[,YAW]]",
-        type=wanted,
+        type=parse_spawn,
         action="append",
         default=[],
         help="also put a robot there: a file or a bundled name, and where [m, rad] (by default at "
@@ -124,7 +124,7 @@ def run(args: argparse.Namespace) -> int:
     world = formats.open_world(args.file, ground=args.ground)
     stage = stage_world(world)
     _take_from_file(args, stage)
-    controller = "wander" if args.wander else "rounds" if _wants_rounds(world, args) else None
+    controller = "wander" if args.wander else "rounds" if _makes_rounds(world, args) else None
     if controller is not None:
         from gazelle.stage import with_wander
 
@@ -138,11 +138,11 @@ def run(args: argparse.Namespace) -> int:
     with Simulation(world, args.engine, seed=args.seed) as sim:
         for plugin in args.system:
             sim.load_plugin(plugin)
-        said = [spawn(sim, robot) for robot in args.spawn]
-        start_wanted_controllers(sim, args)
+        remarks = [spawn(sim, robot) for robot in args.spawn]
+        start_requested_controllers(sim, args)
         step = f"step {1000 * sim.engine.time_step:g} ms"
         sys.stdout.write(f"world '{sim.world.name}' ({args.engine}, {step}): {_listed(sim)}\n")
-        sys.stdout.writelines(f"{line}\n" for line in said if line)
+        sys.stdout.writelines(f"{line}\n" for line in remarks if line)
         say(_undriven(sim, args))
         with viewing(sim, args) as page:
             return _serve(sim, args, page) if args.ros else go(sim, args, page)
@@ -158,7 +158,7 @@ def _take_from_file(args: argparse.Namespace, stage: StageWorld | None) -> None:
         args.seconds = stage.quit_time
 
 
-def _wants_rounds(world: World, args: argparse.Namespace) -> bool:
+def _makes_rounds(world: World, args: argparse.Namespace) -> bool:
     """Return whether a page shows more robots of a Stage file than anyone drives by hand."""
     if args.view is None or args.ros or args.engine != "planar" or world.kind != "stage":
         return False
@@ -166,14 +166,14 @@ def _wants_rounds(world: World, args: argparse.Namespace) -> bool:
 
 
 def _undriven(sim: Simulation, args: argparse.Namespace) -> str:
-    """Return a line that says how to move the robots of a Stage file if nothing does, else ""."""
+    """Return a hint at how to move the robots of a Stage file if nothing does, else ""."""
     from gazelle.stage import StageFleet
 
     fleet = sim.extension(StageFleet)
     if fleet is None or args.ros or not fleet.robots:
         return ""
     if fleet.controllers:
-        rounds = not args.wander and _wants_rounds(sim.world, args)
+        rounds = not args.wander and _makes_rounds(sim.world, args)
         return "the robots drive in a round; --wander lets them roam\n" if rounds else ""
     view = "" if args.view is None else ", or the page"
     return f"nothing drives the robots: --wander does, or --ros with cmd_vel{view}\n"
@@ -186,7 +186,7 @@ def _listed(sim: Simulation) -> str:
 
 
 def go(sim: Simulation, args: argparse.Namespace, page: str = "") -> int:
-    """Run until the end of the time, or Ctrl-C, as ``seconds``, ``rate`` and ``paused`` say.
+    """Run until the end of the time, or Ctrl-C, by ``seconds``, ``rate`` and ``paused``.
 
     Args:
         sim: What runs.
@@ -297,7 +297,7 @@ def _rate(text: str) -> float:
     return math.inf if text == "max" else positive_float(text)
 
 
-def _pace(asked: float | None, usual: float) -> float | None:
+def _pace(requested: float | None, usual: float) -> float | None:
     """Return the real-time factor to keep, None for as fast as possible."""
-    wanted = asked or (usual if usual > 0.0 else math.inf)
-    return None if wanted == math.inf else wanted
+    rate = requested or (usual if usual > 0.0 else math.inf)
+    return None if rate == math.inf else rate

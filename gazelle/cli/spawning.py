@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class Wanted:
+class SpawnRequest:
     """A robot to spawn.
 
     Attributes:
@@ -26,21 +26,21 @@ class Wanted:
     pose: Pose | None = None
 
 
-def wanted(text: str) -> Wanted:
+def parse_spawn(text: str) -> SpawnRequest:
     """Parse ``ROBOT`` or ``ROBOT@X,Y`` or ``ROBOT@X,Y,YAW`` [m, rad]."""
     robot, at, place = text.rpartition("@")
     if not at:
-        return Wanted(text)
+        return SpawnRequest(text)
     try:
         x, y, yaw = (*map(float, place.split(",")), 0.0)[:3]
     except ValueError:
         x = math.nan
     if not robot or not math.isfinite(x) or place.count(",") > 2:
         raise argparse.ArgumentTypeError(f"expected ROBOT@X,Y or ROBOT@X,Y,YAW, not '{text}'")
-    return Wanted(robot, Pose(x, y, yaw=yaw))
+    return SpawnRequest(robot, Pose(x, y, yaw=yaw))
 
 
-def spawn(sim: Simulation, robot: Wanted) -> str:
+def spawn(sim: Simulation, robot: SpawnRequest) -> str:
     """Spawn a robot, beside the origin if something stands there and no pose is given.
 
     Returns:

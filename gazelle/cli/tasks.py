@@ -125,8 +125,8 @@ def _details(task: Task) -> str:
     ]
     for train in published_claims().other_trainings(task.name) if _is_own(task) else ():
         rows += [("or", train), *_figures(published_claims().of_training(train))]
-    said = "".join(f"{line}\n" for line in textwrap.wrap(describe_task(task.id), 80))
-    return f"{task.id}\n{said}" + showing.table([("  " + name, text) for name, text in rows])
+    description = "".join(f"{line}\n" for line in textwrap.wrap(describe_task(task.id), 80))
+    return f"{task.id}\n{description}" + showing.table([("  " + name, text) for name, text in rows])
 
 
 def _figures(claims: Sequence[Claim]) -> list[tuple[str, str]]:

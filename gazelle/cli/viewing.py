@@ -32,7 +32,7 @@ def add_view(parser: argparse.ArgumentParser, purpose: str = LIVE) -> None:
 
 @contextmanager
 def viewing(sim: Simulation, args: argparse.Namespace) -> Iterator[str]:
-    """Serve the page while the simulation runs, if it is wanted.
+    """Serve the page while the simulation runs, on request.
 
     Yields:
         A line with its address, "" without a page. Print it last, where it is found again.

@@ -72,8 +72,8 @@ class AllowedCollisionMatrix:
         own = self._pairs.get(_key(first, second))
         if own is not None:
             return own
-        said = [self._names[name] for name in (first, second) if name in self._names]
-        return bool(said) and all(said)
+        defaults = [self._names[name] for name in (first, second) if name in self._names]
+        return bool(defaults) and all(defaults)
 
     def allowed_among(self, names: Iterable[str]) -> list[Pair]:
         """Return all pairs of some names that may touch."""

@@ -1,4 +1,4 @@
-"""A path of straight ways with round corners, by its length.
+"""A path of straight segments with round corners, by its length.
 
 Method: Kunz and Stilman, "Time-optimal trajectory generation for path following with bounded
 acceleration and velocity", Robotics: Science and Systems VIII, 2012.
@@ -19,13 +19,13 @@ _EQUAL = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class PathPieces:
-    """Straight ways and arcs, one after another.
+    """Straight segments and arcs, one after another.
 
     Attributes:
         begins: Where each begins along the path, and the end of the last, shape (k + 1,).
-        radii: Of arcs; infinite for straight ways, shape (k,).
-        origins: Start of a straight way, centre of an arc, shape (k, n).
-        first: Direction of a straight way; from the centre to an arc's start, shape (k, n).
+        radii: Of arcs; infinite for straight segments, shape (k,).
+        origins: Start of a straight segment, centre of an arc, shape (k, n).
+        first: Direction of a straight segment; from the centre to an arc's start, shape (k, n).
         second: Direction in which an arc begins, shape (k, n).
     """
 

@@ -1,7 +1,7 @@
-"""Straight ways of a link through poses, as far as the arm can follow.
+"""Straight paths of a link through poses, as far as the arm can follow.
 
 The rules are MoveIt's: steps of ``max_step`` metres and 3.5 times as many radians; between two steps
-the link is at most a millimetre and a hundredth of a radian off the straight way, or the path ends.
+the link is at most a millimetre and a hundredth of a radian off the straight path, or the path ends.
 """
 
 from __future__ import annotations
@@ -32,11 +32,11 @@ _FLOOR = 1e-5
 @checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class CartesianPath:
-    """As much of a straight way as an arm can follow.
+    """The part of a straight path that an arm can follow.
 
     Attributes:
         points: Positions of the group's joints, shape (m, n).
-        fraction: Of the way, 0 to 1.
+        fraction: Of the path, 0 to 1.
         reason: Why it ends before the end; empty if it does not.
     """
 
@@ -62,13 +62,13 @@ class JumpLimits:
 
 
 class CartesianPlanner:
-    """Follows straight ways with one link.
+    """Follows straight paths with one link.
 
     Args:
         kinematics: Of the link; begins where the last step ended.
         state: Of all variables, at the start, shape (variables,).
         max_step: Longest step [m].
-        valid: Asked of positions of the group, shape (n,).
+        valid: Predicate of positions of the group, shape (n,).
         reasons: Why positions are not valid.
 
     Raises:
@@ -99,17 +99,17 @@ class CartesianPlanner:
             jumps: Where to cut it off.
 
         Raises:
-            PlanningError: There are no poses, one is not finite, or the way is too long.
+            PlanningError: There are no poses, one is not finite, or the path is too long.
         """
         poses = checked_poses(poses)
         points = [self._state[self._columns].copy()]
         here = self._pose(points[0])
-        ways = [_steps(first, second, self._step) for first, second in _pairs(here, poses)]
-        total = sum(len(way) for way in ways)
+        segments = [_steps(first, second, self._step) for first, second in _pairs(here, poses)]
+        total = sum(len(segment) for segment in segments)
         done = 0
         before = here
-        for way in ways:
-            for pose in way:
+        for segment in segments:
+            for pose in segment:
                 added = self._reach(points[-1], before, pose, 0)
                 if added is None:
                     return self._cut(points, done / total, jumps)

@@ -38,8 +38,8 @@ class JointConstraint:
 
     def violation(self, robot: RobotModel, state: Floats) -> str | None:
         """Return the violation by a state, shape (variables,), as text; None if there is none."""
-        position, way = self._way(robot, state)
-        if -self.below - _ROUNDING <= way <= self.above + _ROUNDING:
+        position, offset = self._offset(robot, state)
+        if -self.below - _ROUNDING <= offset <= self.above + _ROUNDING:
             return None
         return (
             f"joint '{self.joint}' at {position:.4f} is not within "
@@ -48,18 +48,18 @@ class JointConstraint:
 
     def distance(self, robot: RobotModel, state: Floats) -> float:
         """Return the distance of the joint from its position [m or rad], in a state, shape (variables,)."""
-        return abs(self._way(robot, state)[1])
+        return abs(self._offset(robot, state)[1])
 
-    def _way(self, robot: RobotModel, state: Floats) -> tuple[float, float]:
+    def _offset(self, robot: RobotModel, state: Floats) -> tuple[float, float]:
         """Return the joint's position, and its offset above the constraint's position."""
         column = robot.column(self.joint)
         # What is written in the column of a joint that follows another does not count.
         follows = robot.variables[column].mimics
         position = float((robot.complete(state) if follows else state)[column])
-        way = position - self.position
+        offset = position - self.position
         if robot.variables[column].endless:
-            way = math.remainder(way, 2.0 * math.pi)
-        return position, way
+            offset = math.remainder(offset, 2.0 * math.pi)
+        return position, offset
 
 
 @checked(PlanningError)
@@ -111,14 +111,14 @@ class PositionConstraint:
 @checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class OrientationConstraint:
-    """A link turned as wanted, within angles about three axes.
+    """A target orientation of a link, within angles about three axes.
 
     Attributes:
         link: Its name.
         orientation: In the robot's frame; the position of the pose does not count.
         tolerances: About x, y and z [rad].
         measure: What the angles are: ``euler`` angles about the turned x, y and z axes, or a
-            ``rotation vector``; both of the turn that is missing, in the wanted frame.
+            ``rotation vector``; both of the turn that is missing, in the target frame.
     """
 
     link: str
@@ -145,8 +145,8 @@ class OrientationConstraint:
         return float(sum(map(abs, self._angles(robot, state))))
 
     def _angles(self, robot: RobotModel, state: Floats) -> tuple[float, float, float]:
-        wanted = self.orientation.matrix()[:3, :3]
-        turn = wanted.T @ robot.forward(state, self.link)[:3, :3]
+        target = self.orientation.matrix()[:3, :3]
+        turn = target.T @ robot.forward(state, self.link)[:3, :3]
         return _euler(turn) if self.measure == "euler" else rotation_vector(turn)
 
 
@@ -265,6 +265,6 @@ def nearest_on(constraints: ConstraintSet, robot: RobotModel, state: Floats) -> 
             length = float(np.linalg.norm(vector))
             scale = math.sin(length / 2.0) / length if length > 0.0 else 0.0
             kept = Pose.from_quaternion((0, 0, 0), (*(scale * vector), math.cos(length / 2.0)))
-        wanted = Pose.from_quaternion((0, 0, 0), each.orientation.quaternion) * kept
-        made.append(Pose.exactly(here.position, wanted.quaternion))
+        target = Pose.from_quaternion((0, 0, 0), each.orientation.quaternion) * kept
+        made.append(Pose.exactly(here.position, target.quaternion))
     return made

@@ -1,4 +1,4 @@
-"""Trajectories on the way: given to a robot's trajectory controllers, and how that ends."""
+"""Trajectories in execution: sent to a robot's trajectory controllers, and how that ends."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class ExecutionReport:
 
     Attributes:
         outcome: ``SUCCESS``, ``CONTROL_FAILED``, ``TIMED_OUT`` or ``PREEMPTED``.
-        message: What a controller said; empty if all went well.
+        message: Error of a controller; empty on success.
         seconds: Simulated time that it took [s].
     """
 
@@ -113,8 +113,10 @@ class Execution:
             outcome = PlanOutcome.CONTROL_FAILED
             if goal.state in (GoalState.PREEMPTED, GoalState.RECALLED):
                 outcome = PlanOutcome.PREEMPTED
-            said = goal.text or getattr(goal.result, "error_string", "") or goal.state.name.lower()
-            return ExecutionReport(outcome, f"controller '{name}': {said}", seconds)
+            message = (
+                goal.text or getattr(goal.result, "error_string", "") or goal.state.name.lower()
+            )
+            return ExecutionReport(outcome, f"controller '{name}': {message}", seconds)
         return ExecutionReport(PlanOutcome.SUCCESS, "", seconds)
 
     def _failed(self) -> tuple[str, ControlGoal[TrajectoryGoal]] | None:
@@ -152,18 +154,18 @@ def begin_execution(robot: Robot, plan: MotionPlan, world: int) -> Execution:
         if goal.state is GoalState.REJECTED:
             for other in goals.values():
                 other.cancel()
-            said = goal.text or getattr(goal.result, "error_string", "")
-            raise PlanningError(f"controller '{name}' refused the trajectory: {said}")
+            message = goal.text or getattr(goal.result, "error_string", "")
+            raise PlanningError(f"controller '{name}' refused the trajectory: {message}")
         goals[name] = goal
     return Execution(robot, goals, plan.trajectory.duration)
 
 
 def choose_controllers(
-    known: Mapping[str, tuple[str, ...]], wanted: tuple[str, ...]
+    known: Mapping[str, tuple[str, ...]], required: tuple[str, ...]
 ) -> dict[str, tuple[str, ...]]:
     """Return controllers that together move some joints: those with the fewest others first."""
-    left = set(wanted)
-    order = sorted(known.items(), key=lambda item: (len({*item[1]} - {*wanted}), -len(item[1])))
+    left = set(required)
+    order = sorted(known.items(), key=lambda item: (len({*item[1]} - {*required}), -len(item[1])))
     chosen: dict[str, tuple[str, ...]] = {}
     for name, joints in order:
         if left & {*joints} and not any({*joints} & {*other} for other in chosen.values()):

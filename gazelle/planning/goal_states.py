@@ -24,7 +24,7 @@ from gazelle.streams import seed_of
 
 Goal = Pose | str | Mapping[str, float] | ConstraintSet | ArrayLike
 
-_WANTED = 4
+_ENOUGH = 4
 """Number of positions to look for; planners go to the one that is found first."""
 _DRAWN = 10
 """Places within the tolerances of a goal that are tried."""
@@ -36,7 +36,7 @@ class GoalStates:
     """Finds valid positions of a group for goals.
 
     Args:
-        validity: Of the group; what is asked for starts at its state.
+        validity: Of the group; requests start at its state.
         start: Positions of the group, shape (n,).
         link: What poses are of; the group's tip if None.
         seed: Of what is drawn.
@@ -52,14 +52,14 @@ class GoalStates:
     def find(self, goal: Goal) -> Floats:
         """Return valid positions, shape (k, n).
 
-        Continuous joints go the shorter way round from the start.
+        Continuous joints turn in the shorter direction from the start.
 
         Args:
             goal: A pose of the link in the robot's frame, the name of a state, positions by name or
                 of all joints, or constraints.
 
         Raises:
-            NoPlanError: There are none; it says what is in the way.
+            NoPlanError: There are none; the message names the obstacle.
             PlanningError: The goal names what is not there.
         """
         if isinstance(goal, Pose):
@@ -70,9 +70,9 @@ class GoalStates:
         named = self._group.named(goal) if isinstance(goal, str) else goal
         return self._of_positions(self._group.positions(named, self._start))
 
-    def _of_positions(self, wanted: Floats) -> Floats:
+    def _of_positions(self, target: Floats) -> Floats:
         """Return one goal if it is valid, else none."""
-        near = self._start + self._group.difference(self._start, wanted)
+        near = self._start + self._group.difference(self._start, target)
         beyond = self._group.beyond(near)
         if beyond:
             raise NoPlanError(
@@ -121,7 +121,7 @@ class GoalStates:
             whole = state[self._group.columns]
             fits = not goal.violations(self._robot, self._validity.full(whole))
             (good if fits and self._validity(whole) else bad).append(whole)
-            if len(good) >= _WANTED:
+            if len(good) >= _ENOUGH:
                 break
         if not good:
             self._refuse(bad, goal)
@@ -153,7 +153,7 @@ class GoalStates:
             reached[group.columns] = positions
             if not own.violations(self._robot, reached):
                 found.append((group.columns, positions.copy()))
-            return len(found) >= _WANTED
+            return len(found) >= _ENOUGH
 
         solver = InverseKinematics(self._robot, group, link, aim=aim, seed=self._seed)
         for pose in poses:
@@ -176,23 +176,25 @@ class GoalStates:
         for each in goal.joints:
             source, factor, offset = self._robot.leader(self._robot.column(each.joint))
             name = self._robot.names[source]
-            if name in self._group.names and factor != 0.0:  # what mimics it says where it shall be
+            if (
+                name in self._group.names and factor != 0.0
+            ):  # its target comes from a joint that mimics it
                 own[name] = (each.position - offset) / factor
         own |= {
             each.joint: each.position for each in goal.joints if each.joint in self._group.names
         }
-        wanted = np.clip(
+        target = np.clip(
             self._start
             + self._group.difference(self._start, self._group.positions(own, self._start)),
             self._group.lower,
             self._group.upper,
         )
-        violated = goal.violations(self._robot, self._validity.full(wanted))
+        violated = goal.violations(self._robot, self._validity.full(target))
         if violated:
             raise NoPlanError(
                 "the goal cannot be: " + "; ".join(violated), PlanOutcome.INVALID_GOAL_CONSTRAINTS
             )
-        return self._of_positions(wanted)
+        return self._of_positions(target)
 
     def _of_pose(self, link: str, aim: Aim, poses: Sequence[Pose], goal: ConstraintSet) -> Floats:
         """Return positions with a link at one of some poses."""
@@ -206,7 +208,7 @@ class GoalStates:
                 bad.append(positions)
             elif not any(np.allclose(positions, other, atol=1e-3) for other in good):
                 good.append(positions)
-            return len(good) >= _WANTED
+            return len(good) >= _ENOUGH
 
         state = self._validity.full(self._start)
         for pose in poses:
@@ -286,11 +288,11 @@ def _drawn(goal: ConstraintSet, random: np.random.Generator, *, first: bool) -> 
 
 
 def _turned(goal: OrientationConstraint, random: np.random.Generator, *, first: bool) -> Pose:
-    wanted = Pose.from_quaternion((0, 0, 0), goal.orientation.quaternion)
+    target = Pose.from_quaternion((0, 0, 0), goal.orientation.quaternion)
     if first:
-        return wanted
+        return target
     a, b, c = (random.uniform(-1.0, 1.0, 3) * np.minimum(goal.tolerances, np.pi)).tolist()
-    return wanted * Pose(roll=a) * Pose(pitch=b) * Pose(yaw=c)
+    return target * Pose(roll=a) * Pose(pitch=b) * Pose(yaw=c)
 
 
 def _placed(

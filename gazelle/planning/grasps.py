@@ -14,13 +14,13 @@ from gazelle.errors import PlanningError
 @checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class GripperTranslation:
-    """A straight way of the hand.
+    """A straight motion of the hand.
 
     Attributes:
         direction: Of any length but zero.
-        desired: How far, if nothing is in the way [m].
+        desired: Length without obstacles [m].
         minimum: How far at least [m].
-        frame: Link of the direction's axes, as it is turned where the way begins; those of
+        frame: Link of the direction's axes, as it is turned at the start; those of
             the robot's frame if empty.
     """
 
@@ -52,13 +52,13 @@ class GripperTranslation:
 @checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class Grasp:
-    """A way to take a thing.
+    """A grasp of an object.
 
     Attributes:
         pose: Where the link is when the gripper closes, in the robot's frame.
         approach: How it gets there.
         retreat: Where it goes then.
-        open: Positions of the gripper's joints on the way [m or rad]; as they are if empty.
+        open: Positions of the gripper's joints before the grasp [m or rad]; as they are if empty.
         closed: Commanded positions that hold the object.
         effort: Largest one of the gripper [N or N m]; its controller's if zero.
         link: That the pose is of; the group's tip if empty.

@@ -27,8 +27,8 @@ class GripperReport:
     Attributes:
         reached: Whether it is where it should be.
         stalled: Whether something, which it may hold, keeps it from there.
-        position: Where it is, as its controller says [m or rad].
-        message: What the controller said.
+        position: Reported by its controller [m or rad].
+        message: From the controller.
         seconds: Simulated time that it took [s].
     """
 
@@ -44,7 +44,7 @@ class GripperReport:
 
 @checked(PlanningError)
 class RobotGripper:
-    """A gripper that a controller of the robot's moves (``GripperActionController`` and its kin).
+    """A gripper that a controller of the robot's moves (``GripperActionController`` and similar ones).
 
     Args:
         robot: As ``Simulation.spawn`` gave it.

@@ -44,7 +44,7 @@ class GroupPlan:
 
     Attributes:
         plan: What it does.
-        fraction: How much of what was asked it does: less than 1 only for straight ways.
+        fraction: Completed part of the request: less than 1 only for straight paths.
         reason: Why it ends before.
     """
 
@@ -66,7 +66,7 @@ class GroupPlan:
                 these joints.
         """
         self.group.check_start(self.plan)
-        self.group.tell(self.plan)
+        self.group.publish(self.plan)
         return begin_execution(self.group.robot, self.plan, self.group.world)
 
     def run(self) -> ExecutionReport:
@@ -90,7 +90,7 @@ class Group:
             package is looked for.
         options: How to plan.
         limits: Limits of joints, in place of the description's.
-        tip: The link that poses are of, where the SRDF does not say.
+        tip: The link that poses are of, if the SRDF does not name one.
         world: Which of the simulation's worlds.
 
     Attributes:
@@ -183,9 +183,9 @@ class Group:
             PlanningError: There is no such model.
         """
         others = self.robot.simulation.robots
-        wanted = names or [name for name in others if name != self.robot.name]
+        selected = names or [name for name in others if name != self.robot.name]
         back, rows = self.base.inverse(), np.array([self.world])
-        for name in wanted:
+        for name in selected:
             if name not in others:
                 hint = did_you_mean(name, others)
                 raise PlanningError(f"the simulation has no model '{name}'", hint=hint)
@@ -225,7 +225,7 @@ class Group:
         start = self.state()
         link = (self.tip if isinstance(goal, Pose) else None) if link is None else link
         found = self._planner().plan(goal, start=start, link=link, constraints=constraints)
-        self.tell(found)
+        self.publish(found)
         return GroupPlan(found, self)
 
     def follow(
@@ -248,7 +248,7 @@ class Group:
 
         Raises:
             PlanningError: The step is not above zero, there are no poses, one is not finite, or
-                the way has more steps than there may be.
+                the path has more steps than there may be.
         """
         plan, path = self._planner().follow(
             poses,
@@ -259,7 +259,7 @@ class Group:
             avoid_collisions=avoid_collisions,
             constraints=constraints,
         )
-        self.tell(plan)
+        self.publish(plan)
         return GroupPlan(plan, self, path.fraction, path.reason)
 
     def go(self, goal: Goal) -> ExecutionReport:
@@ -330,7 +330,7 @@ class Group:
                 hint="plan again from where the robot is",
             )
 
-    def tell(self, plan: MotionPlan) -> None:
+    def publish(self, plan: MotionPlan) -> None:
         """Publish a plan to listeners of ``simulation.events.planned``.
 
         Raises:

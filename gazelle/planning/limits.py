@@ -31,7 +31,7 @@ def checked_steps(steps: float, step: float) -> int:
     """Return a number of steps, rounded up, at least one.
 
     Args:
-        steps: How many there are on a straight way.
+        steps: Number of steps on a straight path.
         step: How long each is, for the message [m].
 
     Raises:

@@ -30,8 +30,8 @@ class MovingGroup(Protocol):
     def check_start(self, plan: MotionPlan) -> None:
         """Check that the robot is at the start of a plan."""
 
-    def tell(self, plan: MotionPlan) -> None:
-        """Show a plan to who looks."""
+    def publish(self, plan: MotionPlan) -> None:
+        """Publish a plan to viewers."""
 
 
 @checked(PlanningError)
@@ -69,7 +69,7 @@ class Manipulation:
     def _do(self, stage: ManipulationStage) -> ExecutionReport:
         if stage.motion is not None:
             self.group.check_start(stage.motion)
-            self.group.tell(stage.motion)
+            self.group.publish(stage.motion)
             execution = begin_execution(self.group.robot, stage.motion, self.group.world)
             return execution.run()
         report: GripperReport = self.gripper.take(stage.posture, stage.effort)

@@ -56,7 +56,7 @@ class PlanOptions:
         acceleration: Factor of their acceleration limits, within (0, 1].
         timing: How times are given to the path.
         seed: The same one gives the same plan.
-        segment: Distance of states that are checked on the way, as a fraction of the extent.
+        segment: Distance of states that are checked along a motion, as a fraction of the extent.
         edge: Longest edge of the planner's tree; as the planner likes if zero.
         use_ompl: Whether OMPL plans; if None, where it is installed.
     """
@@ -179,7 +179,7 @@ class MotionPlanner:
         avoid_collisions: bool = True,
         constraints: ConstraintSet | None = None,
     ) -> tuple[MotionPlan, CartesianPath]:
-        """Return a trajectory along straight ways of a link, as far as it can go.
+        """Return a trajectory along straight paths of a link, as far as it can go.
 
         Args:
             poses: One after another, in the robot's frame.
@@ -191,7 +191,7 @@ class MotionPlanner:
             constraints: That hold all along.
 
         Returns:
-            The trajectory of what can be done, and how much of the way that is, with the reason.
+            The trajectory of what can be done, its fraction of the path, and the reason.
 
         Raises:
             NoPlanError: It cannot begin.
@@ -262,7 +262,7 @@ class MotionPlanner:
         """
         seed = self.options.seed + 7919 * attempt
         random = np.random.default_rng(seed_of(seed) % 2**64)
-        found = next((goal for goal in goals if validity.way(here, goal)), None)
+        found = next((goal for goal in goals if validity.motion(here, goal)), None)
         if found is not None:
             return np.array([here, found])
         path = self._searched(here, goals, validity, until, seed)
@@ -297,8 +297,8 @@ class MotionPlanner:
         """Return positions nearby with links turned to fulfil orientation constraints."""
         robot = self.scene.robot
         state = validity.full(positions)
-        wanted = nearest_on(validity.constraints, robot, state)
-        for each, pose in zip(validity.constraints.orientations, wanted, strict=True):
+        nearest = nearest_on(validity.constraints, robot, state)
+        for each, pose in zip(validity.constraints.orientations, nearest, strict=True):
             if each.violation(robot, state) is None:
                 continue
             found = self._turner(each.link).solve(pose, state)

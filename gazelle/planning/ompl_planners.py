@@ -38,8 +38,8 @@ def plan_with_ompl(
 
     Args:
         start: Valid positions, shape (n,).
-        goals: Valid positions, shape (k, n); endless joints the shorter way round from the start.
-        validity: Says what is valid.
+        goals: Valid positions, shape (k, n); endless joints in the shorter direction from the start.
+        validity: Check of states and motions.
         planner: A key of ``BOUND``.
         seed: The same one gives the same path, unless the planner continues until time is up.
         until: When to give up, on ``time.monotonic``'s clock [s].
@@ -67,10 +67,10 @@ def plan_with_ompl(
     information.setStateValidityChecker(valid)
     problem = base.ProblemDefinition(information)
     problem.addStartState(_state(space, start))
-    wanted = base.GoalStates(information)
+    goal_states = base.GoalStates(information)
     for goal in goals:
-        wanted.addState(_state(space, goal))
-    problem.setGoal(wanted)
+        goal_states.addState(_state(space, goal))
+    problem.setGoal(goal_states)
     with _SEEDING:
         util.RNG.setSeed(seed + 1)  # zero would be a number drawn from the clock
         information.setup()

@@ -1,4 +1,4 @@
-"""Plans to take a thing and to put it down: ways to and fro, with the gripper's part between them.
+"""Plans to take a thing and to put it down: moves to and fro, with the gripper's part between them.
 
 Stages and their names are those of MoveIt's pick and place: the gripper opens (``pre_grasp``), the arm goes
 to where it can approach (``plan``), approaches straight, the gripper closes (``grasp``), and the hand retreats
@@ -88,10 +88,10 @@ class PickPlacePlanner:
             grasps: Of which one is taken, better ones first.
             start: Of all variables; the scene's state if None. Shape (variables,).
             rules: What may touch.
-            constraints: That hold on the way to the approach.
+            constraints: That hold until the approach.
 
         Raises:
-            NoPlanError: No grasp can be done; it says why of each kind.
+            NoPlanError: No grasp can be done; the message has a reason for each kind.
         """
         if name not in self._scene.objects:
             raise NoPlanError(
@@ -190,18 +190,18 @@ class PickPlacePlanner:
         near = self._near(name, opened, rules, grasp.touches)
 
         def after(there: Floats) -> MotionPlan:
-            """Return the way back with the object."""
+            """Return the retreat with the object."""
             held = near.copy()
             held.state = self._with(there, grasp.closed)
             held.attach(name, self._link, self._hand | {*rules.touch_links})
             self._let_rest(held, name, rules)
             return self._straight(held, held.state, grasp.retreat, 1.0, "lift it")
 
-        wanted = self._tip_pose(grasp.pose, grasp.link, start)
+        target = self._tip_pose(grasp.pose, grasp.link, start)
         free = self._scene.copy()
         free.state = opened
-        to, approach, retreat = self._ways(
-            wanted, grasp.approach, free, near, after, constraints, begun
+        to, approach, retreat = self._plan_moves(
+            target, grasp.approach, free, near, after, constraints, begun
         )
         return [
             *_posed("pre_grasp", grasp.open),
@@ -223,14 +223,14 @@ class PickPlacePlanner:
         begun: float,
     ) -> list[ManipulationStage]:
         held = self._scene.attached[name]
-        wanted = place.pose
+        target = place.pose
         if not place.of_tip:
             in_tip = self._tip_pose(Pose(), held.link, start).inverse() * held.object.pose
-            wanted = place.pose * in_tip.inverse()
+            target = place.pose * in_tip.inverse()
         near = self._near(name, start, rules, place.touches)
 
         def after(there: Floats) -> MotionPlan:
-            """Return the way back without the object."""
+            """Return the retreat without the object."""
             left = near.copy()
             left.state = there
             left.detach(name)
@@ -239,10 +239,10 @@ class PickPlacePlanner:
 
         free = self._scene.copy()
         free.state = start
-        ways = self._ways(
-            wanted, place.approach, free, near, after, constraints, begun, name, rules
+        moves = self._plan_moves(
+            target, place.approach, free, near, after, constraints, begun, name, rules
         )
-        to, approach, retreat = ways
+        to, approach, retreat = moves
         return [
             ManipulationStage("plan", to),
             ManipulationStage("approach", approach),
@@ -252,9 +252,9 @@ class PickPlacePlanner:
 
     # -- parts ---------------------------------------------------------------------------
 
-    def _ways(
+    def _plan_moves(
         self,
-        wanted: Pose,
+        target: Pose,
         translation: GripperTranslation,
         free: PlanningScene,
         near: PlanningScene,
@@ -299,12 +299,12 @@ class PickPlacePlanner:
             return True
 
         solver = InverseKinematics(self._robot, self._group, self._link, seed=self._options.seed)
-        solver.solve(wanted, state, valid=judge)
+        solver.solve(target, state, valid=judge)
         if found:
             return found[0]
         if why:
             raise why[0]
-        x, y, z = wanted.position
+        x, y, z = target.position
         raise NoPlanError(
             f"no positions of the joints bring '{self._link}' to ({x:.3f}, {y:.3f}, {z:.3f}) so turned",
             PlanOutcome.NO_IK_SOLUTION,
@@ -314,7 +314,7 @@ class PickPlacePlanner:
         self,
         scene: PlanningScene,
         state: Floats,
-        way: GripperTranslation,
+        translation: GripperTranslation,
         sign: float,
         what: str,
     ) -> MotionPlan:
@@ -324,15 +324,17 @@ class PickPlacePlanner:
             NoPlanError: It ends too soon.
         """
         here = self._robot.pose(state, self._link)
-        axes = self._robot.pose(state, way.frame) if way.frame else Pose()
-        unit = axes.rotate(way.unit)
-        x, y, z = (p + sign * way.desired * u for p, u in zip(here.position, unit, strict=True))
+        axes = self._robot.pose(state, translation.frame) if translation.frame else Pose()
+        unit = axes.rotate(translation.unit)
+        x, y, z = (
+            p + sign * translation.desired * u for p, u in zip(here.position, unit, strict=True)
+        )
         planner = MotionPlanner(scene, self._group, self._options)
         end = Pose.from_quaternion((x, y, z), here.quaternion)
         plan, path = planner.follow([end], start=state, link=self._link)
-        if path.fraction * way.desired < way.minimum - 1e-9:
+        if path.fraction * translation.desired < translation.minimum - 1e-9:
             raise NoPlanError(
-                f"it cannot {what} straight for more than {path.fraction * way.desired:.3f} m: "
+                f"it cannot {what} straight for more than {path.fraction * translation.desired:.3f} m: "
                 f"{path.reason}",
                 PlanOutcome.PLANNING_FAILED,
             )

@@ -23,7 +23,7 @@ _REACHED = 1e-9
 
 
 class RrtTree:
-    """Positions that are joined by valid ways.
+    """Positions that are joined by valid motions.
 
     Args:
         roots: Shape (k, n).
@@ -77,7 +77,7 @@ def rrt_connect(
     Args:
         start: Valid positions, shape (n,).
         goals: Valid positions, shape (k, n).
-        validity: Says what is valid.
+        validity: Check of states and motions.
         random: Draws positions.
         until: When to give up, on ``time.monotonic``'s clock [s].
         project: Projects positions onto the path constraints; None where there are none.
@@ -98,8 +98,8 @@ def rrt_connect(
             reached = growing.point(added).copy()
             met = _connect(other, reached, longest, validity, project, until)
             if met >= 0:
-                way = growing.back(added)[::-1] + other.back(met)[1:]
-                return np.array(way if forwards else way[::-1])
+                path = growing.back(added)[::-1] + other.back(met)[1:]
+                return np.array(path if forwards else path[::-1])
         growing, other, forwards = other, growing, not forwards
     return None
 
@@ -119,11 +119,11 @@ def _grow(
     """Add one edge towards a point; returns the index of its end, -1 if that cannot be."""
     nearest = tree.nearest(towards)
     here = tree.point(nearest)
-    way = towards - here
-    length = float(np.linalg.norm(way))
+    offset = towards - here
+    length = float(np.linalg.norm(offset))
     if length < _REACHED:
         return -1
-    there = here + way * min(1.0, longest / length)
+    there = here + offset * min(1.0, longest / length)
     if project is not None:
         projected = project(there)
         # A projection back to the start leads nowhere.
@@ -132,7 +132,7 @@ def _grow(
         if np.linalg.norm(projected - here) > 2.0 * longest:
             return -1
         there = projected
-    return tree.add(there, nearest) if validity.way(here, there) else -1
+    return tree.add(there, nearest) if validity.motion(here, there) else -1
 
 
 def _connect(

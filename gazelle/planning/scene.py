@@ -61,7 +61,7 @@ class PlanningScene:
         self.set_padding(padding or {})
         self.set_scale(scale or {})
         if not robot.semantics.disabled_collisions and not robot.semantics.unchecked_links:
-            # What touches with all joints at zero was drawn so, as MoveIt's setup assistant says.
+            # What touches with all joints at zero was drawn so, as in MoveIt's setup assistant.
             for contact in self.contacts():
                 self.allow(contact.first, contact.second)
 

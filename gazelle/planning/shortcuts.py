@@ -1,4 +1,4 @@
-"""Shorter paths: straight ways between places of a path, where they are valid.
+"""Shorter paths: straight motions between points of a path, where they are valid.
 
 Method: Geraerts and Overmars, "Creating high-quality paths for motion planning", 2007.
 """
@@ -23,7 +23,7 @@ def shorten(
 
     Args:
         points: Positions on a valid path, shape (m, n).
-        validity: Says what is valid.
+        validity: Check of states and motions.
         random: Draws places.
         until: When to stop, on ``time.monotonic``'s clock [s].
     """
@@ -45,7 +45,7 @@ def _without_detours(points: Floats, validity: StateValidity, until: float) -> F
         here = kept[-1]
         last = len(points) - 1
         while last > here + 1 and time.monotonic() < until:
-            if validity.way(points[here], points[last]):
+            if validity.motion(points[here], points[last]):
                 break
             last = here + max(1, (last - here) // 2)
         kept.append(max(here + 1, last))
@@ -63,6 +63,6 @@ def _cut(path: Floats, validity: StateValidity, random: np.random.Generator) -> 
         return None
     one = path[i] + (path[i + 1] - path[i]) * ((first - ends[i]) / lengths[i])
     two = path[j] + (path[j + 1] - path[j]) * ((second - ends[j]) / lengths[j])
-    if np.linalg.norm(two - one) > (second - first) * 0.99 or not validity.way(one, two):
+    if np.linalg.norm(two - one) > (second - first) * 0.99 or not validity.motion(one, two):
         return None
     return np.concatenate((path[: i + 1], one[None], two[None], path[j + 1 :]))

@@ -27,7 +27,7 @@ class StateValidity:
         group: Group of the positions.
         state: Of all variables, shape (variables,).
         constraints: That hold in every state.
-        segment: Distance of the states that are checked on a way, as a fraction of the extent.
+        segment: Distance of the states that are checked along a motion, as a fraction of the extent.
         collisions: Whether what touches counts.
 
     Attributes:
@@ -78,10 +78,10 @@ class StateValidity:
             *self.constraints.violations(self.scene.robot, state),
         ]
 
-    def way(self, first: Floats, second: Floats, resolution: float | None = None) -> bool:
+    def motion(self, first: Floats, second: Floats, resolution: float | None = None) -> bool:
         """Return whether all states between two positions are valid; the first one counts as checked.
 
-        The middle comes first, as what lies in the way is found soonest so.
+        The middle comes first, which finds obstacles soonest.
         """
         step = self.resolution if resolution is None else resolution
         count = math.ceil(float(np.linalg.norm(second - first)) / step)
@@ -93,7 +93,7 @@ class StateValidity:
     def path(self, points: Floats, resolution: float | None = None) -> bool:
         """Return whether a path through points, shape (m, n), is valid, ends included."""
         return self(points[0]) and all(
-            self.way(first, second, resolution) for first, second in pairwise(points)
+            self.motion(first, second, resolution) for first, second in pairwise(points)
         )
 
 

@@ -28,7 +28,7 @@ def bag_series(path: Path, fields: Sequence[str]) -> Series:
 
     Args:
         path: The bag.
-        fields: Each a topic and the way to a number in its messages, such as
+        fields: Each a topic and the path to a number in its messages, such as
             ``/odom/twist/twist/linear/x`` or ``/scan/ranges/0``.
 
     Raises:
@@ -62,18 +62,18 @@ def bag_paths(path: Path, topics: Sequence[str] = ()) -> dict[str, Floats]:
                 f"'{path.name}' has no odometry and no poses",
                 hint="plot numbers of it: --field /TOPIC/FIELD",
             )
-        ways: dict[str, list[tuple[float, float]]] = {name: [] for name in topics or known}
-        for entry in bag.read_messages(topics=list(ways)):
+        tracks: dict[str, list[tuple[float, float]]] = {name: [] for name in topics or known}
+        for entry in bag.read_messages(topics=list(tracks)):
             place = _at(entry.message, _POSES[found[entry.topic].msg_type])
-            ways[entry.topic].append((place.x, place.y))
-    return {name: np.array(way) for name, way in ways.items()}
+            tracks[entry.topic].append((place.x, place.y))
+    return {name: np.array(track) for name, track in tracks.items()}
 
 
 def bag_map(path: Path) -> OccupancyMap | None:
     """Return the last map of a bag; None if it has none."""
     with Bag(str(path)) as bag:
         found = bag.get_type_and_topic_info().topics
-        maps = [name for name, told in found.items() if told.msg_type == "nav_msgs/OccupancyGrid"]
+        maps = [name for name, info in found.items() if info.msg_type == "nav_msgs/OccupancyGrid"]
         last = None
         for entry in bag.read_messages(topics=maps) if maps else ():
             last = entry.message
@@ -90,21 +90,21 @@ def _split(field: str, topics: Sequence[str]) -> tuple[str, tuple[str, ...]]:
     return topic, tuple(field.removeprefix(f"{topic}/").split("/"))
 
 
-def _numbers(bag: Bag, topic: str, way: tuple[str, ...], start: float) -> tuple[Floats, Floats]:
+def _numbers(bag: Bag, topic: str, path: tuple[str, ...], start: float) -> tuple[Floats, Floats]:
     times, values = [], []
     for entry in bag.read_messages(topics=[topic]):
-        value = _at(entry.message, way)
+        value = _at(entry.message, path)
         if not isinstance(value, bool | int | float | np.number):
             inside = ", ".join(getattr(value, "__slots__", ())) or type(value).__name__
-            raise RosError(f"{topic}/{'/'.join(way)} is no number", hint=f"it has: {inside}")
+            raise RosError(f"{topic}/{'/'.join(path)} is no number", hint=f"it has: {inside}")
         times.append(entry.timestamp.to_sec() - start)
         values.append(float(value))
     return np.array(times), np.array(values)
 
 
-def _at(message: Any, way: Sequence[str]) -> Any:
+def _at(message: Any, path: Sequence[str]) -> Any:
     """Return the value at the end of a path of names and indices."""
-    for step in way:
+    for step in path:
         try:
             message = message[int(step)] if step.isdigit() else getattr(message, step)
         except (AttributeError, IndexError, TypeError) as error:

@@ -54,7 +54,7 @@ class _Shown:
     grid: OccupancyMap | None = None
     scans: dict[str, Floats] = field(default_factory=dict)
     plans: dict[str, Floats] = field(default_factory=dict)
-    ways: dict[str, list[Floats]] = field(default_factory=dict)
+    trajectories: dict[str, list[Floats]] = field(default_factory=dict)
 
 
 class BagTopView(FilmSource):
@@ -100,8 +100,8 @@ class BagTopView(FilmSource):
         """Render the map, then paths, plans, scans and robots."""
         canvas = Image.fromarray(self._paper())
         draw = ImageDraw.Draw(canvas)
-        for number, way in enumerate(self._shown.ways.values()):
-            points = np.array(way)
+        for number, trajectory in enumerate(self._shown.trajectories.values()):
+            points = np.array(trajectory)
             if len(points) > 1:
                 draw.line(self._frame.path(points[:, :2]), fill=colour_of(number), width=3)
         for plan in self._shown.plans.values():
@@ -110,8 +110,8 @@ class BagTopView(FilmSource):
         for scan in self._shown.scans.values():
             for x, y in self._frame.path(scan[:, :2]):
                 draw.rectangle((x - 2, y - 2, x + 2, y + 2), fill=_HIT)
-        for number, way in enumerate(self._shown.ways.values()):
-            self._draw_robot(draw, way[-1], colour_of(number))
+        for number, trajectory in enumerate(self._shown.trajectories.values()):
+            self._draw_robot(draw, trajectory[-1], colour_of(number))
         return np.asarray(canvas.resize(self._size, Image.Resampling.BOX), np.uint8)
 
     def close(self) -> None:
@@ -149,7 +149,9 @@ class BagTopView(FilmSource):
             self._take(shown, entry)
             for parts in (shown.scans, shown.plans):
                 yield from (part[:, :2] for part in parts.values())
-            yield from (np.array(way[-1:])[:, :2] for way in shown.ways.values())
+            yield from (
+                np.array(trajectory[-1:])[:, :2] for trajectory in shown.trajectories.values()
+            )
             if shown.grid is not None and self._kinds[entry.topic] == _MAP:
                 rows, columns = shown.grid.data.shape
                 side = shown.grid.resolution
@@ -171,16 +173,18 @@ class BagTopView(FilmSource):
             if place is not None:
                 shown.scans[entry.topic] = place.of(_ends(message))
                 if _ODOMETRY not in self._kinds.values():
-                    shown.ways.setdefault(entry.topic, []).append(_pose(place))
+                    shown.trajectories.setdefault(entry.topic, []).append(_pose(place))
         elif place is not None and kind == _PATH:
             spots = [(p.pose.position.x, p.pose.position.y, 0.0) for p in message.poses]
             shown.plans[entry.topic] = place.of(np.array(spots, np.float64).reshape(-1, 3))
         elif place is not None:
-            at, way = message.pose.pose.position, message.pose.pose.orientation
+            at, rotation = message.pose.pose.position, message.pose.pose.orientation
             there = place.of(np.array([[at.x, at.y, at.z]]))[0]
-            heading = yaw_of(np.array([[way.x, way.y, way.z, way.w]]))[0]
+            heading = yaw_of(np.array([[rotation.x, rotation.y, rotation.z, rotation.w]]))[0]
             turn = heading + yaw_of(place.quaternion[None])[0]
-            shown.ways.setdefault(entry.topic, []).append(np.array([there[0], there[1], turn]))
+            shown.trajectories.setdefault(entry.topic, []).append(
+                np.array([there[0], there[1], turn])
+            )
 
     def _place(self, frame: str, stamp: int) -> FramePlace | None:
         """Return the pose of a frame in the fixed one, at that time or the latest; None if unknown."""
@@ -220,7 +224,7 @@ def _kinds(topics: Mapping[str, Any], path: Path) -> dict[str, str]:
     Raises:
         RosError: There are none.
     """
-    found = {name: told.msg_type for name, told in topics.items() if told.msg_type in _SHOWN}
+    found = {name: info.msg_type for name, info in topics.items() if info.msg_type in _SHOWN}
     if not found:
         raise RosError(
             f"'{path.name}' has nothing that can be seen",
@@ -262,8 +266,8 @@ def _pose(place: FramePlace) -> Floats:
 
 def _last_place(shown: _Shown) -> FramePlace | None:
     """Return the robot's pose by odometry, for scans whose frame has no transform."""
-    for way in shown.ways.values():
-        x, y, heading = way[-1].tolist()
+    for trajectory in shown.trajectories.values():
+        x, y, heading = trajectory[-1].tolist()
         turn = np.array([0.0, 0.0, np.sin(heading / 2.0), np.cos(heading / 2.0)])
         return FramePlace(np.array([x, y, 0.0]), turn)
     return None

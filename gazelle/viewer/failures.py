@@ -70,9 +70,11 @@ def draw_failures(found: Evaluation) -> Picture:
 
 def _points(record: EpisodeRecord) -> dict[str, Point]:
     """Return start, end and goal of an episode, as far as known [m]."""
-    told = {name: record.info[name] for name in ("position", "goal") if name in record.info}
+    values_by_name = {
+        name: record.info[name] for name in ("position", "goal") if name in record.info
+    }
     points: dict[str, Point] = {
-        name: (values[0], values[1]) for name, values in told.items() if len(values) >= 2
+        name: (values[0], values[1]) for name, values in values_by_name.items() if len(values) >= 2
     }
     if {"start_x", "start_y"} <= record.scenario.keys():
         points["start"] = (record.scenario["start_x"], record.scenario["start_y"])
@@ -82,8 +84,8 @@ def _points(record: EpisodeRecord) -> dict[str, Point]:
 def _draw(canvas: _Canvas, record: EpisodeRecord) -> None:
     colour = _COLOURS[record.outcome]
     points = _points(record)
-    way = [points[name] for name in ("start", "position", "goal") if name in points]
-    for here, there in itertools.pairwise(way):
+    route = [points[name] for name in ("start", "position", "goal") if name in points]
+    for here, there in itertools.pairwise(route):
         canvas.line(here, there, _PALE, 1)
     if "start" in points:
         canvas.ring(points["start"], 3.0, colour)

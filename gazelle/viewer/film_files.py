@@ -44,7 +44,7 @@ def writable(path: str | Path, suffixes: tuple[str, ...]) -> Path:
 
 
 def write_picture(file: Path, picture: Picture) -> None:
-    """Write a picture of shape (height, width, 3), as the suffix says.
+    """Write a picture of shape (height, width, 3), in the format of the suffix.
 
     Raises:
         Error: The format holds no picture of this size.
@@ -70,7 +70,7 @@ def write_film(path: str | Path, pictures: Iterable[Picture], rate: float) -> in
     Raises:
         Error: The suffix is not a film's, the rate cannot be, there is no picture, they are too
             many, or one cannot be in this film.
-        MissingExtraError: MP4 is wanted, and what writes it is not installed.
+        MissingExtraError: MP4 is requested, and its writer is not installed.
     """
     file = writable(path, FILMS)
     check_rate(rate)
@@ -139,7 +139,7 @@ def _write_mp4(file: Path, pictures: Iterable[Picture], rate: float) -> int:
 
 
 def _even(picture: Picture) -> Picture:
-    """Return a picture whose sides are even, which H.264's colours require."""
+    """Return a picture with even sides, which H.264's colours require."""
     height, width = picture.shape[:2]
     edge = ((0, height % 2), (0, width % 2), (0, 0))
     return np.ascontiguousarray(np.pad(picture, edge, mode="edge"))

@@ -48,7 +48,7 @@ def film(
 
     Raises:
         Error: The suffix is not a film's, or a number cannot be.
-        MissingExtraError: MP4 is wanted, and what writes it is not installed.
+        MissingExtraError: MP4 is requested, and its writer is not installed.
     """
     file = writable(path, FILMS)
     if not (seconds > 0.0 and speed > 0.0):

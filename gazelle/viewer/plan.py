@@ -115,9 +115,9 @@ class TopView:
     def _draw_trails(self, draw: ImageDraw.ImageDraw) -> None:
         if len(self._been) < 2:
             return
-        for body, way in enumerate(np.moveaxis(np.array(self._been), 1, 0)):
-            if np.ptp(way[:, :2], axis=0).any():
-                draw.line(self._frame.path(way[:, :2]), fill=_pale(colour_of(body)), width=_FINER)
+        for body, trail in enumerate(np.moveaxis(np.array(self._been), 1, 0)):
+            if np.ptp(trail[:, :2], axis=0).any():
+                draw.line(self._frame.path(trail[:, :2]), fill=_pale(colour_of(body)), width=_FINER)
 
     def _draw_body(self, draw: ImageDraw.ImageDraw, fleet: Fleet, body: int, pose: Floats) -> None:
         footprint, colour = footprint_of(fleet, body), colour_of(body)

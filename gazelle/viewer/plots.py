@@ -71,10 +71,10 @@ def plot_table(table: Path, columns: Sequence[str], file: Path) -> None:
         if name not in found:
             hint = did_you_mean(name, others)
             raise FormatError(f"there is no column '{name}' of numbers", file=str(table), hint=hint)
-    wanted = list(columns) or others
-    if not wanted:
+    drawn = list(columns) or others
+    if not drawn:
         raise FormatError("there is one column of numbers, and nothing to draw", file=str(table))
-    plot_series({name: (found[first], found[name]) for name in wanted}, first, file)
+    plot_series({name: (found[first], found[name]) for name in drawn}, first, file)
 
 
 def plot_series(series: Series, horizontal: str, file: Path) -> None:

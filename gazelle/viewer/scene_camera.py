@@ -36,7 +36,7 @@ class SceneCamera:
     Args:
         simulation: What to look at.
         eye: Where the camera is [m]; by default where it sees the whole world, or behind the
-            model that it follows, and elsewhere as soon as something is in the way. While it
+            model that it follows, and elsewhere as soon as something blocks the view. While it
             follows, in the frame that moves with the model.
         target: What it looks at [m], likewise.
         follow: Name of a model that the camera goes along with, without turning.
@@ -85,7 +85,7 @@ class SceneCamera:
         if self._follow:
             shift = simulation.robots[self._follow].placement(self._world).position[0]
             if self._dodges:
-                self._eye = self._target + self._clear_way(self._eye - self._target)
+                self._eye = self._target + self._unobstructed(self._eye - self._target)
         eye, target = self._eye + shift, self._target + shift
         pose = look_at(_triple(eye), _triple(target))
         frames = scene.render(
@@ -98,7 +98,7 @@ class SceneCamera:
         fine = Image.fromarray(frames.color[0])
         return np.asarray(fine.reduce(_FINER), np.uint8)
 
-    def _clear_way(self, present: Floats) -> Floats:
+    def _unobstructed(self, present: Floats) -> Floats:
         """Return from where the model that is followed is seen, relative to the target [m].
 
         The nearest to the present one along which nothing but the model is met; the present one if
@@ -109,13 +109,13 @@ class SceneCamera:
         first = robot.first_link
         if first is None:
             return present
-        ways = np.array([present, *_ways()])
+        offsets = np.array([present, *_candidate_offsets()])
         target = robot.placement(self._world).position[0] + self._target
         place = engine.links[first.name].placement(self._world)
         back = conjugate(place.quaternion[0])
-        lengths = np.linalg.norm(ways, axis=1)
-        origins = rotate(back, target + ways - place.position[0])
-        directions = rotate(back, -ways / lengths[:, None])
+        lengths = np.linalg.norm(offsets, axis=1)
+        origins = rotate(back, target + offsets - place.position[0])
+        directions = rotate(back, -offsets / lengths[:, None])
         try:
             hits = engine.links[first.name].cast_rays(origins, directions, self._world)
         except EngineError:  # the plane has rays of one height only
@@ -123,8 +123,8 @@ class SceneCamera:
         clear = (hits.distance[0] >= lengths - _NEAR) & ~hits.from_inside[0]
         if not clear.any():
             return present
-        change = np.linalg.norm(ways - present, axis=1)
-        found: Floats = ways[int(np.where(clear, change, np.inf).argmin())]
+        change = np.linalg.norm(offsets - present, axis=1)
+        found: Floats = offsets[int(np.where(clear, change, np.inf).argmin())]
         return found
 
     def _usual(self, eye: Vector3 | None, target: Vector3 | None) -> tuple[Floats, Floats]:
@@ -139,7 +139,7 @@ class SceneCamera:
         return (seen + away if eye is None else np.array(eye)), seen
 
 
-def _ways() -> Iterator[Floats]:
+def _candidate_offsets() -> Iterator[Floats]:
     """Yield where a model may be looked at from, relative to it [m], what is usual first."""
     for share, lift in ((1.0, 0.0), (1.0, 0.8), (0.5, 0.0), (0.5, 0.8), (0.3, 1.0)):
         for eighth in (0, 1, -1, 2, -2, 3, -3, 4):

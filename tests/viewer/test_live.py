@@ -300,7 +300,7 @@ def test_models_are_pushed_lifted_deleted_and_spawned(room):
 def test_what_goes_wrong_on_the_page_is_said_there_and_stops_nothing(room, monkeypatch):
     with LiveView(room) as view:
         said = []
-        monkeypatch.setattr(view._context, "tell", lambda *words: said.append(words))
+        monkeypatch.setattr(view._context, "notify", lambda *words: said.append(words))
         tools = view._layers[2]
         tools._what.value = "file ..."
         tools._file.value = "/nowhere/robot.urdf"
@@ -376,7 +376,7 @@ def test_a_single_step_is_seen_on_the_clock(step, text):
 def test_a_model_that_is_spawned_into_something_is_put_beside_it(monkeypatch):
     with Simulation("turtlebot3_world", threads=1) as sim, LiveView(sim) as view:
         said = []
-        monkeypatch.setattr(view._context, "tell", lambda *words: said.append(words))
+        monkeypatch.setattr(view._context, "notify", lambda *words: said.append(words))
         tools = view._layers[2]
         tools._what.value = "turtlebot3_burger"
         tools._where.value = (0.0, 0.0, 0.0)  # a pillar stands there

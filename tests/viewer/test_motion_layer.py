@@ -105,7 +105,7 @@ def test_any_planner_may_tell_of_a_motion(arm):
 def test_a_motion_that_cannot_be_shown_is_said_and_forgotten(arm, monkeypatch):
     with LiveView(arm.simulation) as view:
         said = []
-        monkeypatch.setattr(type(view._context), "tell", lambda _, *words: said.append(words))
+        monkeypatch.setattr(type(view._context), "notify", lambda _, *words: said.append(words))
         motion = JointMotion(("tail",), np.array([0.0]), np.array([[0.3]]), {})
         arm.simulation.events.planned.emit(arm, 0, motion)
         assert pictured(view) is None

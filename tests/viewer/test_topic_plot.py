@@ -27,7 +27,7 @@ def told(plot, rows):
         message = floats_message(labels, values)
         if not labels:
             message.layout.dim = []
-        plot._hear(message)
+        plot._receive(message)
     return plot._names, list(plot._rows)
 
 

@@ -19,7 +19,7 @@ _MOST = 100_000  # points of a cloud
 _RED, _GREEN, _BLUE = (210, 40, 40), (40, 160, 70), (50, 110, 190)
 _NUMBERS = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
 """Of ``PointField.datatype``."""
-_WAY = np.array([1.0, 0.0, 0.0, 0.0])
+_IDENTITY = np.array([1.0, 0.0, 0.0, 0.0])
 
 
 class Drawing:
@@ -229,7 +229,7 @@ def pose_of(pose: geometry_msgs.msg.Pose) -> tuple[Floats, Floats]:
     at, turned = pose.position, pose.orientation
     q = np.array([turned.w, turned.x, turned.y, turned.z])
     length = float(np.linalg.norm(q))
-    return np.array([at.x, at.y, at.z]), (q / length if length > 1e-6 else _WAY)
+    return np.array([at.x, at.y, at.z]), (q / length if length > 1e-6 else _IDENTITY)
 
 
 KINDS: dict[str, Callable[[Drawing, Any], None]] = {

@@ -1,4 +1,4 @@
-"""Robots of a graph: what parameters describe, where tf says that their links are."""
+"""Robots of a graph: descriptions from parameters, link poses from tf."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class DescribedRobot:
-    """A robot whose links stand where tf says.
+    """A robot with the link poses that tf reports.
 
     Args:
         scene: Of the page.
@@ -60,10 +60,10 @@ class DescribedRobot:
         self.placed = bool(known.any())
         self._batches.hide(hidden=not self.placed)
         if self.placed:
-            self._carry(int(np.flatnonzero(known)[0]), ~known)
+            self._place_others(int(np.flatnonzero(known)[0]), ~known)
             self._batches.show(self._at, self._turned)
 
-    def _carry(self, base: int, others: Bools) -> None:
+    def _place_others(self, base: int, others: Bools) -> None:
         """Move links along with a placed one, by their poses in the description."""
         at, turned = self._batches.rest
         turn = multiply(self._turned[0, base], conjugate(turned[base]))[None]

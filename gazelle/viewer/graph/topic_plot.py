@@ -59,11 +59,11 @@ class TopicPlot:
         self._names, self._horizontal = tuple(names), horizontal
         self._lock = threading.Lock()
         self._rows: deque[tuple[float, ...]] = deque(maxlen=keep)
-        self._heard = self._drawn = 0
+        self._received = self._drawn = 0
         kind = std_msgs.msg.Float32MultiArray
-        node.subscribe(topic, kind, self._hear, keep)
+        node.subscribe(topic, kind, self._receive, keep)
 
-    def _hear(self, message: std_msgs.msg.Float32MultiArray) -> None:
+    def _receive(self, message: std_msgs.msg.Float32MultiArray) -> None:
         labels = tuple(message.layout.dim[0].label.split(",")) if message.layout.dim else ()
         with self._lock:
             names = labels if len(labels) == len(message.data) else self._names
@@ -73,7 +73,7 @@ class TopicPlot:
                 self._names = names
                 self._rows.clear()
             self._rows.append(tuple(message.data))
-            self._heard += 1
+            self._received += 1
 
     def draw(self) -> bool:
         """Write the picture if there is something new; whether there was.
@@ -83,14 +83,14 @@ class TopicPlot:
             MissingExtraError: Matplotlib is not installed.
         """
         with self._lock:
-            rows, names, heard = list(self._rows), self._names, self._heard
-        if heard == self._drawn:
+            rows, names, received = list(self._rows), self._names, self._received
+        if received == self._drawn:
             return False
         columns = np.array(rows, np.float64).T
-        count = np.arange(heard - len(rows) + 1, heard + 1, dtype=np.float64)
+        count = np.arange(received - len(rows) + 1, received + 1, dtype=np.float64)
         series = {name: (count, column) for name, column in zip(names, columns, strict=True)}
         plot_series(series, self._horizontal, self.file)
-        self._drawn = heard
+        self._drawn = received
         return True
 
 

@@ -1,4 +1,4 @@
-"""The ROS graph that runs, live in a browser: the RViz of those who have no ROS."""
+"""The ROS graph that runs, live in a browser: RViz without an installed ROS."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class GraphView(Closeable):
 
     Attributes:
         url: Where the page is.
-        ended: Whether the graph has asked it to end, or it was closed.
+        ended: Whether the graph has requested its shutdown, or it was closed.
 
     Raises:
         MissingExtraError: viser is not installed.
@@ -66,7 +66,7 @@ class GraphView(Closeable):
         except BaseException:
             self._node.close()
             raise
-        self.url, self._asked = self._server.url, frame
+        self.url, self._requested_frame = self._server.url, frame
         self._tree, self._lock = FrameTree(), threading.Lock()
         self._fresh: dict[str, list[Any]] = {}
         self._kinds: dict[str, str] = {}
@@ -122,14 +122,14 @@ class GraphView(Closeable):
                     self._discover()
                 self._picture()
             except (ApiError, UnreachableError) as error:
-                self._say(f"the master does not answer: {error}")
+                self._set_status(f"the master does not answer: {error}")
                 self._stop.wait(_LOOK)
             except Exception:  # noqa: BLE001  one bad message does not end the view
                 _log.exception("a picture of the graph failed")
             looked += _PERIOD
             self._stop.wait(_PERIOD)
 
-    def _say(self, text: str) -> None:
+    def _set_status(self, text: str) -> None:
         if self._status.content != text:
             self._status.content = text
 
@@ -146,7 +146,7 @@ class GraphView(Closeable):
                 self._meet(name)
         fixed = self._fixed()
         counts = f"{len(self._tree.names())} frames, {len(self._kinds)} topics"
-        said = [f"fixed frame **{fixed}** &nbsp; {counts}, {len(self._robots)} robots"]
+        lines = [f"fixed frame **{fixed}** &nbsp; {counts}, {len(self._robots)} robots"]
         faults = [fault for _, fault in self._refused.values()]
         faults += [
             f"{topic}: no transform from {frame} to {fixed}, so it is not shown"
@@ -157,7 +157,7 @@ class GraphView(Closeable):
             for name, robot in self._robots.items()
             if not robot.placed
         ]
-        self._say("\n\n".join([*said, *faults]))
+        self._set_status("\n\n".join([*lines, *faults]))
 
     def _meet(self, name: str) -> None:
         """Read a robot_description, if it is new or another one."""
@@ -247,7 +247,7 @@ class GraphView(Closeable):
         self._anchors[topic].wxyz = np.array((w, x, y, z))
 
     def _fixed(self) -> str:
-        if self._asked:
-            return self._asked.lstrip("/")
+        if self._requested_frame:
+            return self._requested_frame.lstrip("/")
         names = self._tree.names()
         return next((name for name in _FIXED if name in names), names[0] if names else "map")

@@ -97,7 +97,7 @@ class PageContext:
         return found
 
     def select(self, model: str, world: int = 0) -> None:
-        """Select the model that tools work on; "" for none. Listeners hear of it with the next picture."""
+        """Select the model that tools work on; "" for none. Listeners are called with the next picture."""
         self.selected, self.world = model, world
 
     def announce_selection(self) -> None:
@@ -111,12 +111,12 @@ class PageContext:
             for listener in tuple(self.listeners):
                 listener()
 
-    def tell(self, title: str, text: str) -> None:
+    def notify(self, title: str, text: str) -> None:
         """Show a notice on every page."""
         for client in self.page.get_clients().values():
             client.add_notification(title, text, auto_close_seconds=6.0)
 
-    def heed(self, handle: Any, work: Callable[[], None]) -> None:
+    def on_user_change(self, handle: Any, work: Callable[[], None]) -> None:
         """Call a function when a user, and not this program, changes an input of the panel."""
 
         def changed(event: Any) -> None:
@@ -130,10 +130,10 @@ class PageContext:
         try:
             work()
         except Error as error:
-            self.tell("This cannot be done", str(error))
+            self.notify("This cannot be done", str(error))
         except Exception as error:  # noqa: BLE001  whatever it is, the run continues
             _log.exception("the page of a simulation failed")
-            self.tell("This failed", f"{type(error).__name__}: {error}")
+            self.notify("This failed", f"{type(error).__name__}: {error}")
 
 
 def spots_of(simulation: Simulation, count: int) -> Floats:

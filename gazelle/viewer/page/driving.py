@@ -44,7 +44,7 @@ _STICK = """
 class DriveControls:
     """A joystick and keys that send velocities to the selected robot.
 
-    It stands still again when the page says nothing for a moment.
+    It stands still again when the page sends nothing for a moment.
 
     Args:
         context: Of the page.

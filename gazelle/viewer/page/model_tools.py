@@ -39,7 +39,7 @@ class ModelTools:
         self._gizmo: Any = None
         if not context.only_looking:
             self._offer()
-        context.heed(self._name, self._choose)
+        context.on_user_change(self._name, self._choose)
         context.listeners.append(self._selected)
         self.renew()
 
@@ -109,9 +109,9 @@ class ModelTools:
         handle.on_drag("left", modifier="cmd/ctrl")(_Drag(context, met, pull=True).moved)
 
     def _selected(self) -> None:
-        wanted = self._context.selected or NONE
-        if wanted in self._name.options:
-            self._name.value = wanted
+        selected = self._context.selected or NONE
+        if selected in self._name.options:
+            self._name.value = selected
 
     def _choose(self) -> None:
         name = self._name.value
@@ -132,7 +132,7 @@ class ModelTools:
         """Apply ``push``, ``lift`` or ``delete`` to the selected model."""
         context = self._context
         if not context.selected:
-            context.tell("No model is selected", "Click one, or choose it by name.")
+            context.notify("No model is selected", "Click one, or choose it by name.")
             return
         robot = context.simulation.robots[context.selected]
         if work == "delete":
@@ -146,7 +146,7 @@ class ModelTools:
             link.apply_wrench(self._force.value, duration=_PUSH, worlds=context.chosen)
 
     def spawn(self) -> None:
-        """Spawn the chosen model where it is wanted, or at the nearest free place."""
+        """Spawn the chosen model at the requested place, or at the nearest free one."""
         context, simulation = self._context, self._context.simulation
         what = self._what.value
         model = formats.load_model(self._file.value.strip() if what == _OWN else what)
@@ -154,10 +154,10 @@ class ModelTools:
         put = spawn_where_free(simulation, model, Pose(x, y, yaw=yaw))
         name = put.robot.name
         if put.stuck:
-            context.tell("There is no free place", f"{name} is stuck in something.")
+            context.notify("There is no free place", f"{name} is stuck in something.")
         elif put.moved_to is not None:
             there = "{:g}, {:g}".format(*put.moved_to)
-            context.tell("Something stands there", f"{name} was put at {there}.")
+            context.notify("Something stands there", f"{name} was put at {there}.")
         context.select(name, context.world)
 
 
@@ -221,13 +221,13 @@ def _place(context: PageContext, model: str, at: Any, turned: Any, world: Any) -
         if model in context.simulation.robots:
             robot = context.simulation.robots[model]
             place = at() if callable(at) else at
-            way = turned() if callable(turned) else turned
-            context.careful(lambda: robot.set_pose(place, way, worlds=world))
+            rotation = turned() if callable(turned) else turned
+            context.careful(lambda: robot.set_pose(place, rotation, worlds=world))
 
     context.simulation.lock.post(put)
 
 
-def _pull(context: PageContext, model: str, link: str, way: Floats, world: Any) -> None:
+def _pull(context: PageContext, model: str, link: str, offset: Floats, world: Any) -> None:
     """Pull a link towards the mouse, harder the heavier its model and the farther the mouse is."""
 
     def pull() -> None:
@@ -236,7 +236,7 @@ def _pull(context: PageContext, model: str, link: str, way: Floats, world: Any) 
             bodies = (each.description.inertial for each in robot.links.values())
             mass = sum(body.mass for body in bodies if body is not None)
             handle = robot.links[link.removeprefix(f"{model}::")]
-            force = 10.0 * mass * way
+            force = 10.0 * mass * offset
             context.careful(lambda: handle.apply_wrench(force, duration=0.1, worlds=world))
 
     context.simulation.lock.post(pull)

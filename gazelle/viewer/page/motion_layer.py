@@ -110,7 +110,7 @@ class MotionLayer:
             with self._lock:
                 if self._motions.get(key) is seen.motion:
                     del self._motions[key]
-            self._context.tell("A motion cannot be shown", str(error))
+            self._context.notify("A motion cannot be shown", str(error))
             return None
         self._ghosts[key] = ghost
         return ghost

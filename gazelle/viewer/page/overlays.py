@@ -19,7 +19,7 @@ _NAMES = 200  # models beyond which names are not shown
 _RAYS = 20_000  # of all lidars together, drawn at most
 _FRAMES = 2000
 _CONTACTS = 2000
-_WAY = np.array([1.0, 0.0, 0.0, 0.0])
+_IDENTITY = np.array([1.0, 0.0, 0.0, 0.0])
 
 
 class NameLayer:
@@ -90,7 +90,7 @@ class FrameLayer:
         if self._axes is None:
             self._axes = self._context.scene.add_batched_axes(
                 f"{ROOT}/frames",
-                np.tile(_WAY, (len(at), 1)),
+                np.tile(_IDENTITY, (len(at), 1)),
                 at,
                 axes_length=0.15,
                 axes_radius=0.006,

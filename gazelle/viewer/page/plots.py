@@ -35,7 +35,7 @@ class PlotLayer:
         self._folder = context.gui.add_folder("Plot", expand_by_default=False)
         with self._folder:
             self._port: Any = context.gui.add_dropdown("Output", (NONE,))
-        context.heed(self._port, self._choose)
+        context.on_user_change(self._port, self._choose)
         self._fresh = 0
         self._shown = 0
         self.renew()

@@ -38,7 +38,7 @@ class RunControls:
         self._context = context
         self._meter = PaceMeter()
         self._speed_before: float | None = None
-        self._said = ""
+        self._status_text = ""
         gui, careful = context.gui, context.careful
         self._status = gui.add_markdown("")
         self._speed: Any = None
@@ -49,7 +49,7 @@ class RunControls:
             self._steps = gui.add_number("Steps", 1, min=1, max=1_000_000, step=1)
             self._speed = gui.add_dropdown("Speed", _SPEEDS, initial_value="1")
         self._run.on_click(lambda event: careful(lambda: self.do(event.target.value)))
-        context.heed(self._speed, self._pace)
+        context.on_user_change(self._speed, self._pace)
 
     def read(self) -> ClockState:
         """Return the clock now."""
@@ -67,7 +67,7 @@ class RunControls:
         self._speed_before = state.speed
         factor = self._meter.factor(state.time)
         mode = "paused" if state.paused else _reached(factor)
-        self._say(f"**{state.time:.{self._decimals()}f} s** &nbsp; {mode}")
+        self._set_status(f"**{state.time:.{self._decimals()}f} s** &nbsp; {mode}")
 
     def renew(self) -> None:
         """Do nothing: the clock does not depend on models."""
@@ -77,9 +77,9 @@ class RunControls:
         step = self._context.simulation.physics.time_step
         return max(2, math.ceil(-math.log10(step) - 1e-9))
 
-    def _say(self, text: str) -> None:
-        if text != self._said:
-            self._status.content = self._said = text
+    def _set_status(self, text: str) -> None:
+        if text != self._status_text:
+            self._status.content = self._status_text = text
 
     def do(self, word: str) -> None:
         """Execute ``run``, ``pause``, ``step`` or ``reset``."""

@@ -1,4 +1,4 @@
-"""A page on this machine that only those see who know its address.
+"""A page on this machine, served only to clients that know its address.
 
 viser serves every client of its port, and offers to share the page over the internet. Here every
 request, the websocket's too, has to begin with a secret; what comes without it is refused before
@@ -52,7 +52,7 @@ class PageServer(Closeable):
     Attributes:
         viser: What the page shows and has on its panel.
         url: Where the page is, with the secret.
-        handlers: What scripts on the page may ask for, by name.
+        handlers: Requests that scripts on the page may make, by name.
 
     Raises:
         MissingExtraError: viser is not installed.
@@ -121,7 +121,7 @@ class PageServer(Closeable):
         self._changed.set()
 
     def _check(self, port: int) -> None:
-        """Check that the requested port is used, and that strangers are rejected."""
+        """Check that the requested port is used, and that other clients are rejected."""
         if port not in (0, self.port):
             raise Error(f"no view on port {port}: it is taken", hint="choose another port")
         connection = http.client.HTTPConnection(HOST, self.port, timeout=60)
@@ -196,7 +196,7 @@ def required_viser() -> Any:
 
 @contextmanager
 def _guarded(admit: Callable[..., Any]) -> Iterator[None]:
-    """Make viser's server ask for admission while it lasts.
+    """Make viser's server check each request while it lasts.
 
     viser has no hook for it: it gives its own ``process_request`` to websockets' ``serve``.
     """
@@ -212,10 +212,10 @@ def _guarded(admit: Callable[..., Any]) -> Iterator[None]:
             return original(handler, *args, **options)
         inner = options.pop("process_request")
 
-        def ask(connection: Any, request: Any) -> Any:
+        def check_request(connection: Any, request: Any) -> Any:
             return admit(connection, request, inner)
 
-        return original(handler, *args, process_request=ask, logger=log, **options)
+        return original(handler, *args, process_request=check_request, logger=log, **options)
 
     server.serve = serve  # type: ignore[misc,assignment]
     try:
@@ -227,7 +227,7 @@ def _guarded(admit: Callable[..., Any]) -> Iterator[None]:
 @contextmanager
 def _silent() -> Iterator[None]:
     """Silence viser while it lasts: its address lacks the secret."""
-    rich: Any = importlib.import_module("rich")  # viser brings it
+    rich: Any = importlib.import_module("rich")  # a dependency of viser
     original = rich.print
     rich.print = lambda *_args, **_options: None
     try:

@@ -119,11 +119,11 @@ class ShapeBatches:
         """
         turned = quaternions[:, self._link]
         at = positions[:, self._link] + rotate(turned, self._at[None]) + self._spots[:, None]
-        way = multiply(turned, self._turned[None])
+        rotations = multiply(turned, self._turned[None])
         for batch in self._batches:
             places = np.ascontiguousarray(at[: batch.worlds, batch.parts], np.float32)
             turns = np.ascontiguousarray(
-                way[: batch.worlds, batch.parts][..., [3, 0, 1, 2]], np.float32
+                rotations[: batch.worlds, batch.parts][..., [3, 0, 1, 2]], np.float32
             )
             now = [places.reshape(-1, 3), turns.reshape(-1, 4)]
             for name, old, new in zip(
@@ -170,12 +170,12 @@ class ShapeBatches:
         mesh = shapes.meshes[int(shapes.parts[parts[0], c.MESH_OF_PART])]
         vertices = shapes.vertices[int(mesh[c.FIRST_VERTEX]) : int(mesh[c.LAST_VERTEX])]
         faces = shapes.faces[int(mesh[c.FIRST_FACE]) : int(mesh[c.LAST_FACE])]
-        at, way = np.zeros((count, 3)), np.tile((1.0, 0.0, 0.0, 0.0), (count, 1))
+        at, rotations = np.zeros((count, 3)), np.tile((1.0, 0.0, 0.0, 0.0), (count, 1))
         texture = int(shapes.parts[parts[0], c.TEXTURE_OF_PART])
         if texture >= 0:
             uv = shapes.uv[int(mesh[c.FIRST_VERTEX]) : int(mesh[c.LAST_VERTEX])]
             dressed = textured_mesh(vertices, faces, uv, _picture(shapes, texture))
-            return scene.add_batched_meshes_trimesh(name, dressed, way, at, lod="off")
+            return scene.add_batched_meshes_trimesh(name, dressed, rotations, at, lod="off")
         colors = np.clip(shapes.color[parts] + shapes.glow[parts], 0.0, 1.0)
         clear = shapes.alpha[parts].astype(np.float64) * self._opacity
         see_through = bool((clear < 1.0).any())
@@ -183,7 +183,7 @@ class ShapeBatches:
             name,
             np.asarray(vertices, np.float32),
             faces,
-            way,
+            rotations,
             at,
             batched_colors=np.tile(np.asarray(colors * 255.0 + 0.5, np.uint8), (worlds, 1)),
             batched_opacities=np.tile(clear, worlds) if see_through else None,
