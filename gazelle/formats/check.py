@@ -34,7 +34,7 @@ class Problem:
         element: Path of the element.
         hint: What to do about it.
         why: Why it matters; None where that is plain.
-        rule: Short name of the rule that found it; None for what the reader says.
+        rule: Short name of the rule that found it; None for findings of the reader.
     """
 
     severity: Literal["error", "warning"]
@@ -109,8 +109,8 @@ def _found(reading: Reading, judge: Callable[[], list[Problem]], name: str | Non
         for miss in reading.misses
     ]
     problems += [_noted(note) for note in reading.notes if note.severity == "warning"]
-    told = {each.rule for each in problems}  # by the reader, who sees each element
-    return problems + [each for each in judged if each.rule not in told]
+    reported = {each.rule for each in problems}  # by the reader, who sees each element
+    return problems + [each for each in judged if each.rule not in reported]
 
 
 def is_semantic(file: Path) -> bool:
@@ -124,7 +124,7 @@ def is_semantic(file: Path) -> bool:
 
 
 def _check_semantics(file: Path, urdf: PathLike | None, reading: Reading) -> list[Problem]:
-    """Read an SRDF, and check it against its URDF; what that says wrong is another check's."""
+    """Read an SRDF, and check it against its URDF; errors of the URDF belong to another check."""
     with reading.inside(file):
         root = srdf.read_root(file, reading)
         srdf.read_semantics(root, reading)

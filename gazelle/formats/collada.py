@@ -2,7 +2,7 @@
 
 Node transforms and the file's unit are applied. The up-axis is not: Gazebo classic and
 RViz do not turn meshes by it either, and many files of robots (Kobuki's, TurtleBot3's)
-say Y_UP by mistake of their exporter, though z is up. Of materials the diffuse colour or picture is
+declare Y_UP by mistake of their exporter, though z is up. Of materials the diffuse colour or picture is
 read; lights, cameras and animations play no part.
 """
 

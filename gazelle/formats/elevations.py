@@ -35,7 +35,7 @@ _OTHERS = (
     "dy",
     "nodata_value",
 )
-_MISSING = "-9999"  # what a grid's head need not say
+_MISSING = "-9999"  # optional in the header of a grid
 
 
 def read_srtm(path: Path) -> Floats:

@@ -56,7 +56,7 @@ def evaluate(text: str, symbols: dict[str, Any], local: Mapping[str, Any] | None
     code, loops = _compiled(text.strip())
     symbols.update(__builtins__=_OPERATIONS)
     if not loops:
-        return eval(code, symbols, local)  # noqa: S307  # what a file may say is checked
+        return eval(code, symbols, local)  # noqa: S307  # expressions of files are checked
     with _counted():
         return eval(code, symbols, local)  # noqa: S307
 

@@ -20,7 +20,7 @@ from gazelle_ros.base.path_texts import can_be_path, expanded, shortened
 
 PathLike = str | os.PathLike[str]
 
-_told: set[tuple[str, Path]] = set()
+_warned: set[tuple[str, Path]] = set()
 """Models of the environment that were reported as not taken."""
 
 _own_worlds: dict[tuple[Path, int], World] = {}
@@ -56,7 +56,7 @@ def load(
             names all that is missing, and stand-ins are used.
 
     Raises:
-        FormatError: The file cannot be read, or says something that cannot be.
+        FormatError: The file cannot be read, or its content is invalid.
         ResolveError: There is no such file; or, if ``strict``, one it refers to.
     """
     reading = _reading(paths, xacro_args)
@@ -96,7 +96,7 @@ def load_string(
     Relative names start nowhere: files are found through ``paths`` and URIs.
 
     Raises:
-        FormatError: The text cannot be read, or says something that cannot be.
+        FormatError: The text cannot be read, or its content is invalid.
         ResolveError: A file is not found, and ``strict`` is set.
     """
     if not isinstance(text, str | bytes):
@@ -111,7 +111,7 @@ def read_text(text: str | bytes, name: str, reading: Reading) -> World:
     """Return the world in SDF, URDF, xacro or Stage text; ``name`` stands for the file in errors.
 
     Raises:
-        FormatError: The text cannot be read, or says something that cannot be.
+        FormatError: The text cannot be read, or its content is invalid.
     """
     data = text.encode(errors="surrogatepass") if isinstance(text, str) else text
     own = find_world_format(data)
@@ -181,7 +181,7 @@ def find_file(path: PathLike, reading: Reading, *, model: bool = False) -> Path:
     """Return the file of a path, URI or bundled name.
 
     Args:
-        path: What was asked for.
+        path: The requested file.
         reading: Resolves it.
         model: Of a bundled model and a bundled world of one name, take the model.
 
@@ -239,14 +239,14 @@ def _bundled(name: str, resolver: Resolver, *, model: bool) -> Path | None:
     if bundled is None:
         return resolver.model(name)
     if bundled != given:
-        _tell_other(name, resolver)
+        _warn_of_other(name, resolver)
     return bundled
 
 
-def _tell_other(name: str, resolver: Resolver) -> None:
+def _warn_of_other(name: str, resolver: Resolver) -> None:
     other = resolver.environment_model(name)
-    if other is not None and (name, other) not in _told:
-        _told.add((name, other))
+    if other is not None and (name, other) not in _warned:
+        _warned.add((name, other))
         warnings.warn(
             f"'{name}' is the one that comes with Gazelle; another is in {other}: give its path, "
             f"or model://{name}, to take that one",
@@ -296,7 +296,7 @@ def read_path(file: Path, reading: Reading) -> World:
     """Read the world in a file.
 
     Raises:
-        FormatError: It cannot be read, or says something that cannot be.
+        FormatError: It cannot be read, or its content is invalid.
     """
     if file.suffix.lower() in _MAP_SUFFIXES:
         return map_world(load_map(file))

@@ -24,7 +24,7 @@ from gazelle.formats.terrain import rectangles
 SOLID = 65
 """Least value of a cell that is a wall; of what ``map_server`` publishes all occupied ones are."""
 HEIGHT = 1.0
-"""Of the walls [m]; a map says nothing of it."""
+"""Of the walls [m]; a map has no height."""
 MAX_BOXES = 100_000
 
 _GREY = Material(ambient=(0.5, 0.5, 0.5, 1.0), diffuse=(0.5, 0.5, 0.5, 1.0))

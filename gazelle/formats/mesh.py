@@ -36,7 +36,7 @@ class MeshPart:
         name: Of the node or object in the file; may be empty.
         vertices: Positions [m], shape (n, 3).
         faces: Corners of each triangle, shape (m, 3).
-        look: What the file says of its colours.
+        look: Colours from the file.
     """
 
     name: str

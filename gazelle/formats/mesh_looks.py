@@ -18,7 +18,7 @@ class MeshLook:
     """The look of a piece.
 
     Attributes:
-        color: Red, green and blue, 0 to 1; None if the file does not say.
+        color: Red, green and blue, 0 to 1; None if the file has none.
         texture: The picture file that it names; empty for none.
         pixels: The picture, where it is inside the mesh file: bytes of shape (height, width, 3), top
             row first.
@@ -84,7 +84,7 @@ def look_of_trimesh(mesh: Any) -> MeshLook:
         tinted = np.asarray(picture.convert("RGB"), np.float64) * (red, green, blue)
         pixels = np.clip(np.rint(tinted), 0.0, 255.0).astype(np.uint8)
     if getattr(material, "alphaMode", None) != "BLEND":
-        alpha = 1.0  # glTF: the alpha of what is not blended says nothing
+        alpha = 1.0  # glTF: alpha counts only for blended materials
     places = None if pixels is None else np.asarray(uv, np.float64)[np.asarray(mesh.faces)]
     return MeshLook((red, green, blue), uv=places, pixels=pixels, alpha=alpha)
 

@@ -1,4 +1,4 @@
-"""Model folders: ``model.config`` says which file holds the model."""
+"""Model folders: ``model.config`` names the file of the model."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """Maps of ROS's ``map_server``: a YAML file that names a picture.
 
 Cells come out as ``map_server`` of ROS 1 (navigation, Noetic) publishes them: a dark pixel
-is occupied, a bright one free, and the modes ``trinary``, ``scale`` and ``raw`` say what
+is occupied, a bright one free, and the modes ``trinary``, ``scale`` and ``raw`` define what
 becomes of those between (wiki.ros.org/map_server).
 """
 
@@ -112,7 +112,7 @@ def cells(pixels: Bytes, settings: MapSettings, *, blue_first: bool = False) -> 
 
     Args:
         pixels: Shape (height, width, channels), top row first.
-        settings: What the YAML file says.
+        settings: Content of the YAML file.
         blue_first: Whether pixels stand as blue, green, red in the file.
     """
     count = pixels.shape[2]

@@ -31,7 +31,7 @@ class ScriptMaterial:
         specular: Colour of highlights.
         emissive: Colour it glows with.
         texture: Name of the picture on it; empty for none.
-        blended: Whether what is behind shows through, as the diffuse colour's alpha says.
+        blended: Whether what is behind shows through, by the diffuse colour's alpha.
     """
 
     ambient: Color | None = None

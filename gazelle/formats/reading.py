@@ -25,8 +25,8 @@ class Miss:
     """A URI that led nowhere.
 
     Attributes:
-        uri: As the file says.
-        source: Where the file says it.
+        uri: As in the file.
+        source: Its position in the file.
         looked: Where it was looked for.
     """
 

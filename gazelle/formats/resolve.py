@@ -157,7 +157,7 @@ class Resolver:
     def _below(self, name: str, inner: str, scheme: str) -> Iterator[Path]:
         """Yield folders.
 
-        As in Gazebo, ``model://`` may also name a package, and the other way round.
+        As in Gazebo, ``model://`` may also name a package, and vice versa.
         """
         first, second = (self.model, self.package)
         if scheme == "package":

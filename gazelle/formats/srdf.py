@@ -62,7 +62,7 @@ def load_srdf(
         xacro_args: Values of ``<xacro:arg>``.
 
     Raises:
-        FormatError: The file cannot be read, or says something that cannot be.
+        FormatError: The file cannot be read, or its content is invalid.
         ResolveError: There is no such file.
     """
     file = existing_file(path)
@@ -92,7 +92,7 @@ def load_srdf_string(text: str | bytes, *, name: str = "string") -> Semantics:
     """Load SRDF text, such as the parameter ``robot_description_semantic``.
 
     Raises:
-        FormatError: The text cannot be read, or says something that cannot be.
+        FormatError: The text cannot be read, or its content is invalid.
     """
     reading = Reading(Resolver())
     root = xml.parse(text, name=name, report=reading.misread)
@@ -107,7 +107,7 @@ def read_semantics(root: Parameters, reading: Reading) -> Semantics:
     """Read a ``<robot>`` element of SRDF.
 
     Raises:
-        FormatError: It says something that cannot be.
+        FormatError: Its content is invalid.
     """
     if root.tag != "robot":
         raise values.fail(root, f"expected <robot>, found <{root.tag}>")

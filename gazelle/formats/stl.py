@@ -15,7 +15,7 @@ from gazelle.errors import FormatError
 _HEADER = 84
 _START = 4096
 _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
-# The name of a solid, which may say anything, also "vertex"; not a whole file on one line.
+# The name of a solid, which may be any text, also "vertex"; not a whole file on one line.
 _NAME = re.compile(rb"solid(?!.*\bfacet\b).*")
 _VERTEX = re.compile(rb"vertex\s+(\S+)\s+(\S+)\s+(\S+)")
 _AGAIN = "export or download the file again"

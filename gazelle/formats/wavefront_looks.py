@@ -57,12 +57,12 @@ def painted(
     for library in libraries:
         looks = _library(path, library) | looks
     for piece in pieces:
-        said = objects.get(piece.name)
-        if said is None or len(said.materials) != len(piece.faces):
+        assigned = objects.get(piece.name)
+        if assigned is None or len(assigned.materials) != len(piece.faces):
             yield piece.name, piece.vertices, piece.faces, PLAIN
             continue
-        names, which = np.unique(said.materials, return_inverse=True)
-        corners = np.array(said.places, np.int64).reshape(-1, 3)
+        names, which = np.unique(assigned.materials, return_inverse=True)
+        corners = np.array(assigned.places, np.int64).reshape(-1, 3)
         for number, name in enumerate(names.tolist()):
             chosen = which.ravel() == number
             look = looks.get(name, PLAIN)

@@ -33,7 +33,7 @@ _ATTRIBUTE = re.compile(
 
 @dataclass(slots=True)
 class _Mending:
-    """Text on its way to being well-formed.
+    """Text under repair for well-formedness.
 
     Attributes:
         text: As it is in the file.
@@ -146,7 +146,7 @@ def _instruction(work: _Mending, piece: str, at: int) -> None:
     elif "".join(work.parts).strip("\ufeff \t\r\n"):
         work.put(piece, "\n" * piece.count("\n"), at, "the XML declaration must come first")
     else:
-        # the text is encoded again, and what it says of its encoding may no longer hold
+        # the text is encoded again, so its declared encoding may no longer hold
         work.parts.append(_NAMES_ENCODING.sub("", piece))
 
 

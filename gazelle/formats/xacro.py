@@ -125,7 +125,7 @@ def expand_text(text: str | bytes, name: str, reading: Reading) -> Parameters:
 
 
 def _run(name: str, data: bytes, reading: Reading) -> Parameters:
-    with _LOCK, _patched(reading) as said:
+    with _LOCK, _patched(reading) as output:
         engine.init_stacks(name)
         _made.count = 0
         try:
@@ -138,7 +138,7 @@ def _run(name: str, data: bytes, reading: Reading) -> Parameters:
         except Exception as error:  # expressions in a file may raise anything
             raise _explain(error, name) from error
     root: Any = document.documentElement
-    for text in dict.fromkeys(said.getvalue().splitlines()):
+    for text in dict.fromkeys(output.getvalue().splitlines()):
         if text.strip().startswith(("warning", "Warning")) or "deprecated" in text:
             reading.note(f"xacro: {text.strip()}", Parameters("robot", source=Source(name, 1)))
     return _convert(root, name, None, {})
@@ -202,8 +202,8 @@ def _patched(reading: Reading) -> Iterator[io.StringIO]:
         bounded_yaml.compose(xml.read_bytes(path))
         return builtins.open(path, encoding="utf-8")  # noqa: PTH123
 
-    said = io.StringIO()
-    symbols = engine._global_symbols  # noqa: SLF001  # the package has no other way
+    output = io.StringIO()
+    symbols = engine._global_symbols  # noqa: SLF001  # the package has no public access
     bounded: dict[str, Any] = {"range": expressions.bounded_range}
     inner = symbols["xacro"]
     with contextlib.ExitStack() as stack:
@@ -217,8 +217,8 @@ def _patched(reading: Reading) -> Iterator[io.StringIO]:
         ):
             stack.enter_context(xacro_engine.replaced(names, values))
         stack.enter_context(xacro_engine.adapted(find, _reporter(reading)))
-        stack.enter_context(contextlib.redirect_stderr(said))
-        yield said
+        stack.enter_context(contextlib.redirect_stderr(output))
+        yield output
 
 
 def _once(load: Callable[[str], Any]) -> Callable[[str], Any]:

@@ -18,8 +18,8 @@ def hint_of(text: str, trace: TracebackType | None) -> str | None:
     """Return a hint on an error of the ``xacro`` package, or None.
 
     Args:
-        text: What it says.
-        trace: Where it says so: its functions know the macros and properties there are.
+        text: The message.
+        trace: The traceback: its functions know the macros and properties there are.
     """
     argument = _ARGUMENT.search(text)
     if argument is not None:

@@ -1,4 +1,4 @@
-"""Mobile robots: motions and control loops for many at once, and a way to a goal for one.
+"""Mobile robots: motions and control loops for many at once, and navigation to a goal for one.
 
 All on plain numbers, with neither ROS nor learning; only ``GoToGoal`` knows the simulation.
 """

@@ -143,7 +143,7 @@ class Motions:
     def move_ofsc(
         self, heading: ArrayLike, robots: ArrayLike | None = None, *, timeout: float = 60.0
     ) -> None:
-        """Turn to an absolute heading [rad], the shorter way.
+        """Turn to an absolute heading [rad], in the shorter direction.
 
         The rest is as for ``move_l``.
         """
@@ -225,21 +225,23 @@ class Motions:
         self, rows: Indices, pose: Floats, dt: float, command: Floats, still: NDArray[np.bool_]
     ) -> None:
         limits = self.limits
-        way = self._goal[rows] - pose[rows, :2]
-        distance = np.hypot(way[:, 0], way[:, 1])
+        offset = self._goal[rows] - pose[rows, :2]
+        distance = np.hypot(offset[:, 0], offset[:, 1])
         there = distance <= limits.distance
         self._finish(rows[there & still[rows]])
-        error = wrapped(np.arctan2(way[:, 1], way[:, 0]) - pose[rows, 2])
-        # Once on its way a robot that has passed the point backs up and does not turn round.
-        on_way = self._aligned[rows] & (distance < 0.25)
-        error = np.where(on_way & (np.cos(error) < 0.0), wrapped(error + math.pi), error)
-        back = on_way & (way[:, 0] * np.cos(pose[rows, 2]) + way[:, 1] * np.sin(pose[rows, 2]) < 0)
+        error = wrapped(np.arctan2(offset[:, 1], offset[:, 0]) - pose[rows, 2])
+        # While approaching, a robot that has passed the point backs up and does not turn round.
+        approaching = self._aligned[rows] & (distance < 0.25)
+        error = np.where(approaching & (np.cos(error) < 0.0), wrapped(error + math.pi), error)
+        back = approaching & (
+            offset[:, 0] * np.cos(pose[rows, 2]) + offset[:, 1] * np.sin(pose[rows, 2]) < 0
+        )
         aligned = np.abs(error) <= limits.turn_first
         self._aligned[rows] |= aligned
         speed = np.minimum(limits.gain * distance, limits.linear) * np.where(back, -1.0, 1.0)
         speed = np.where(aligned, speed * np.cos(error), 0.0)
         turning = self._pid.update(error, dt, rows)
-        # Near the point its bearing says little: only what aims past the tolerance counts.
+        # Near the point its bearing is unreliable: only what aims past the tolerance counts.
         small = np.abs(distance * np.sin(error)) < 0.5 * limits.distance
         command[rows, 0] = np.where(there, 0.0, speed)
         command[rows, 1] = np.where(there | (small & (distance < 0.25) & aligned), 0.0, turning)

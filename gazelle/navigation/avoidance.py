@@ -18,20 +18,20 @@ _ROOM = 0.25  # distance within which being near costs [m]
 
 
 def safe_velocity(
-    wanted: tuple[float, float],
+    desired: tuple[float, float],
     now: tuple[float, float],
     points: Floats,
     interval: float,
     limits: BaseLimits,
 ) -> tuple[float, float]:
-    """Return the velocity nearest to what is wanted that hits nothing before the base stands.
+    """Return the velocity nearest to the desired one that hits nothing before the base stands.
 
     Only velocities that can be had within the interval are tried: the dynamic window of
     D. Fox, W. Burgard and S. Thrun, "The dynamic window approach to collision avoidance",
     1997. If all hit something, the base brakes.
 
     Args:
-        wanted: Forward [m/s] and turning [rad/s].
+        desired: Forward [m/s] and turning [rad/s].
         now: The same, as it moves.
         points: Obstacles in the frame of the base (x, y) [m], shape (n, 2).
         interval: Until the next command [s].
@@ -39,27 +39,27 @@ def safe_velocity(
     """
     gain, turn = limits.linear_acceleration * interval, limits.angular_acceleration * interval
     low, high = max(now[0] - gain, 0.0), min(max(now[0], 0.0) + gain, limits.linear)
-    speeds = _choices(wanted[0], min(low, high), high, _LINEAR_CHOICES)
+    speeds = _choices(desired[0], min(low, high), high, _LINEAR_CHOICES)
     least, most = max(now[1] - turn, -limits.angular), min(now[1] + turn, limits.angular)
-    turns = _choices(wanted[1], min(least, most), max(least, most), _ANGULAR_CHOICES)
+    turns = _choices(desired[1], min(least, most), max(least, most), _ANGULAR_CHOICES)
     tried = np.stack(np.meshgrid(speeds, turns, indexing="ij"), axis=-1).reshape(-1, 2)
     room, already = _room(tried, points, interval, limits)
     # In a place that is too narrow already, what does not make it narrower may be done.
     open_to = room >= min(limits.clearance / 2.0, already - 1e-3)
     if not open_to.any():
         return min(low, high), float(np.clip(0.0, least, most))
-    off = np.abs(tried - wanted) @ (1.0 / limits.linear, 0.5 / limits.angular)
+    off = np.abs(tried - desired) @ (1.0 / limits.linear, 0.5 / limits.angular)
     cost = off + 0.6 * np.clip(1.0 - room / _ROOM, 0.0, 1.0)
     best = tried[np.where(open_to, cost, math.inf).argmin()]
     return float(best[0]), float(best[1])
 
 
-def _choices(wanted: float, low: float, high: float, count: int) -> Floats:
-    """Return values of a range, with the one nearest to the wanted value.
+def _choices(desired: float, low: float, high: float, count: int) -> Floats:
+    """Return values of a range, with the one nearest to the desired value.
 
     Zero is among them if the range contains it.
     """
-    special = np.clip((wanted, 0.0), low, high)
+    special = np.clip((desired, 0.0), low, high)
     return np.unique(np.concatenate((np.linspace(low, high, count), special)))
 
 

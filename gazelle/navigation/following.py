@@ -21,7 +21,7 @@ def wrapped(angle: float) -> float:
     return math.remainder(angle, 2.0 * math.pi)
 
 
-def wanted_velocity(path: Floats, pose: Pose2, limits: BaseLimits) -> tuple[float, float]:
+def following_velocity(path: Floats, pose: Pose2, limits: BaseLimits) -> tuple[float, float]:
     """Return forward [m/s] and turning [rad/s] velocity that follow a path without obstacles.
 
     The base steers for a point of the path a little ahead of it, on an arc (pure pursuit,

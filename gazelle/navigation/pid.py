@@ -79,8 +79,8 @@ class BoundedPid:
             self._sum[which] = np.clip(self._sum[which] + self.i * now * dt, *self.integral)
             rate = np.where(np.isnan(last), 0.0, (now - last) / dt)
         self._last[which] = now
-        wanted = self.p * now + self._sum[which] + self.d * rate
-        out: Floats = np.clip(wanted, *self.output)
+        effort = self.p * now + self._sum[which] + self.d * rate
+        out: Floats = np.clip(effort, *self.output)
         return out
 
     def reset(self, rows: Rows | None = None) -> None:

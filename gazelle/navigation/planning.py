@@ -1,4 +1,4 @@
-"""Plan a way over a map that leaves the base its room."""
+"""Plan a path over a map with room for the base."""
 
 from __future__ import annotations
 
@@ -7,16 +7,16 @@ import numpy as np
 from gazelle.array_types import Bools, Floats
 from gazelle.navigation.grid import OccupancyGrid
 from gazelle.navigation.limits import BaseLimits
-from gazelle.navigation.search import Cell, find_way
+from gazelle.navigation.search import Cell, find_path
 
-# Prices of a cell: near an obstacle a way of twice or four times the length is preferred.
+# Prices of a cell: near an obstacle a path of twice or four times the length is preferred.
 _NEAR = ((0.1, 4.0), (0.25, 2.0))
 _TIGHT = 20.0  # of ground that is too near to an obstacle, but where the base stands already
-_GOAL_WITHIN = 0.4  # beyond its room; else a goal in an obstacle has no way to it [m]
+_GOAL_WITHIN = 0.4  # beyond its room; else a goal in an obstacle has no path [m]
 
 
 def plan(grid: OccupancyGrid, start: Floats, goal: Floats, limits: BaseLimits) -> Floats:
-    """Return a way from place to place, as far from obstacles as is worth it.
+    """Return a path from place to place, as far from obstacles as is worth it.
 
     Args:
         grid: What is known; it grows to hold both places. Unknown ground counts as free.
@@ -25,29 +25,29 @@ def plan(grid: OccupancyGrid, start: Floats, goal: Floats, limits: BaseLimits) -
         limits: Of the base.
 
     Returns:
-        Points from start to goal [m], shape (n, 2), a cell apart; (0, 2) if there is no way, not
+        Points from start to goal [m], shape (n, 2), a cell apart; (0, 2) if there is no path, not
         even one without clearance.
     """
     grid.include(np.stack((start, goal)))
-    way = _way(grid, start, goal, limits, limits.radius + limits.clearance)
-    if way is None:
+    cells = _cheapest_cells(grid, start, goal, limits, limits.radius + limits.clearance)
+    if cells is None:
         # A map draws walls thicker than they are: where a base got in it may get out.
-        way = _way(grid, start, goal, limits, limits.radius)
-    if way is None:
+        cells = _cheapest_cells(grid, start, goal, limits, limits.radius)
+    if cells is None:
         return np.zeros((0, 2))
-    points = grid.centre_of(way)
-    if way[-1] == _cell(grid, goal):
+    points = grid.centre_of(cells)
+    if cells[-1] == _cell(grid, goal):
         points[-1] = goal
     return _smoothed(points)
 
 
-def _way(
+def _cheapest_cells(
     grid: OccupancyGrid, start: Floats, goal: Floats, limits: BaseLimits, room: float
 ) -> list[Cell] | None:
     """Return the cells of the cheapest path with a clearance [m]; None without one."""
     prices = _prices(grid, start, room)
     last = _nearest_open(grid, prices, start, goal, limits)
-    return None if last is None else find_way(prices, _cell(grid, start), last)
+    return None if last is None else find_path(prices, _cell(grid, start), last)
 
 
 def is_blocked(grid: OccupancyGrid, path: Floats, here: Floats, limits: BaseLimits) -> bool:

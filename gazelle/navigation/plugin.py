@@ -111,12 +111,12 @@ class GoToGoal(ModelPlugin):
         for world in self._chosen(worlds):
             self._seeker(world).seek(numbers)
         if self._sleep is None:
-            self._sleep = self._unit.subscribe(self._hear)
+            self._sleep = self._unit.subscribe(self._receive_scan)
 
     def on_update(self, time: float) -> None:
         """Command all worlds that have a goal."""
         if self._sleep is None:
-            self._sleep = self._unit.subscribe(self._hear)
+            self._sleep = self._unit.subscribe(self._receive_scan)
         poses = self._poses(time)
         for world, seeker in self._seekers.items():
             if seeker.goal is not None:
@@ -134,7 +134,7 @@ class GoToGoal(ModelPlugin):
             self._shown, self._shown_at = plans, time
             self._path.publish()
 
-    def _hear(self, unit: SensorUnit) -> None:
+    def _receive_scan(self, unit: SensorUnit) -> None:
         self._scan = unit.reading(unit.current())
 
     def _fall_asleep(self) -> None:
@@ -175,7 +175,7 @@ class GoToGoal(ModelPlugin):
         return [(x, y, heading) for x, y, heading in found]
 
     def _read_path(self) -> Path:
-        ways = []
+        paths = []
         for world in range(self._nworld):
             seeker = self._seekers.get(world)
             points = np.zeros((0, 2)) if seeker is None else seeker.path
@@ -183,9 +183,9 @@ class GoToGoal(ModelPlugin):
             headings = np.arctan2(ahead[:, 1], ahead[:, 0])
             if len(points) > 1:
                 headings[-1] = headings[-2]
-            ways.append(np.column_stack((points, headings)))
+            paths.append(np.column_stack((points, headings)))
         now = self._robot.simulation.clock.now_ns
-        return Path(now, self._odometry().frame, tuple(ways))
+        return Path(now, self._odometry().frame, tuple(paths))
 
     def _seeker(self, world: int) -> GoalSeeker:
         if world not in self._seekers:

@@ -1,4 +1,4 @@
-"""Refuges on a map: places where a robot is out of another one's way."""
+"""Refuges on a map: places where a robot does not obstruct another one."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class RobotDisc:
 
 
 class RefugeMap:
-    """Ways and places on a map, by static obstacles only.
+    """Paths and places on a map, by static obstacles only.
 
     Args:
         grid: The map; what is unknown is closed.
@@ -76,7 +76,7 @@ class RefugeMap:
         found: Bools = self._room[cells[:, 1], cells[:, 0]] < _CLOSE
         return found
 
-    def way(self, robot: RobotDisc, goal: Sequence[float]) -> Floats:
+    def path(self, robot: RobotDisc, goal: Sequence[float]) -> Floats:
         """Return the path to a place without other robots, shape (n, 2) [m]; empty without one."""
         start, end = self._cell(robot.x, robot.y), self._cell(goal[0], goal[1])
         if start is None or end is None:
@@ -92,16 +92,16 @@ class RefugeMap:
         self,
         robot: RobotDisc,
         leader: RobotDisc,
-        way: Floats,
+        path: Floats,
         bodies: Sequence[RobotDisc],
         taken: Sequence[RobotDisc],
     ) -> RobotDisc | None:
-        """Return the place, nearest by the way there, where a robot stands in no other's way.
+        """Return the place with the shortest path where a robot obstructs no other.
 
         Args:
-            robot: That has to make way.
-            leader: That it makes way for, and cannot get past.
-            way: Of the leader, shape (n, 2) [m].
+            robot: That has to yield.
+            leader: That it yields to, and cannot get past.
+            path: Of the leader, shape (n, 2) [m].
             bodies: Robots that stay where they are.
             taken: Places that others will stand at.
 
@@ -119,7 +119,7 @@ class RefugeMap:
         self._field.spread(prices, start, None, _NEUTRAL)
         costs = self._field.values
         good = (costs < NOT_REACHED) & (self._room >= robot.circumscribed)
-        good &= self._away_from(way) >= robot.apart(leader)
+        good &= self._away_from(path) >= robot.apart(leader)
         for other in (leader, *bodies, *taken):
             good &= ~self._within(other, robot.apart(other))
         if not good.any():
@@ -136,16 +136,16 @@ class RefugeMap:
         spare = self._room - robot.inscribed
         prices = _NEUTRAL + _NEAR_WALLS * np.exp(-_DECAY * np.maximum(spare, 0.0))
         prices[spare < 0.0] = 0.0
-        # Where it stands it can move, whatever a map of whole cells says of walls beside it.
+        # Where it stands it can move, although a map of whole cells has walls beside it.
         about = self._within(robot, robot.circumscribed) & (self._room > 0.0)
         prices[about & (spare < 0.0)] = _NEUTRAL + _NEAR_WALLS
         return prices.astype(np.float32)
 
-    def _away_from(self, way: Floats) -> Floats:
+    def _away_from(self, path: Floats) -> Floats:
         """Return the distance of each cell from a path [m], shape (rows, columns)."""
         marked = np.zeros(self._room.shape, np.uint8)
-        cells = np.floor((way - self._corner) / self._side).astype(int)
-        # The way may be on another robot's map.
+        cells = np.floor((path - self._corner) / self._side).astype(int)
+        # The path may be on another robot's map.
         cells = cells[((cells >= 0) & (cells < marked.shape[::-1])).all(axis=1)]
         marked[cells[:, 1], cells[:, 0]] = 1
         away: Floats = np.sqrt(squared_distances(marked)) * self._side

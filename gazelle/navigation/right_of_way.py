@@ -1,9 +1,9 @@
-"""Robots that wait for one another: the one of least priority makes way.
+"""Robots that wait for one another: the one of least priority yields.
 
 Each robot plans by itself, and takes the others for obstacles. Where two meet in a corridor each finds
-its way blocked by the other. So robots that stand are looked at together: robots on the way that
+its way blocked by the other. So robots that stand are looked at together: robots on the path that
 another one would go, were it alone. Of those that hang together the first by priority continues, and the
-others wait; those on its way first go to the nearest place beside it, backwards if they have to.
+others wait; those on its path first go to the nearest place beside it, backwards if they have to.
 """
 
 from __future__ import annotations
@@ -28,11 +28,11 @@ _MOVED: Final = 0.3
 _MOST_ENCOUNTERS: Final = 12
 """For one goal of a robot; then it is left to ``move_base``, which gives up at last."""
 _STUCK: Final = 20.0
-"""Time that a robot may be stuck on its way to a refuge, until others stop waiting for it [s]."""
+"""Time that a robot may be stuck before its refuge, until others stop waiting for it [s]."""
 _BESIDE: Final = 0.8
 """Distance of other moving robots that keeps a robot in its refuge [m]."""
 _RETRY: Final = 3.0
-"""After robots were looked at that cannot make way [s]."""
+"""After a check of robots that cannot yield [s]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +40,7 @@ class RightOfWaySettings:
     """Parameters below ``right_of_way``.
 
     Attributes:
-        enabled: Whether the robot makes way, and has way made for it.
+        enabled: Whether the robot yields, and others yield to it.
         priority: The greater one goes first; among equals the first by name.
         patience: How long it stands before anything is done [s].
     """
@@ -76,7 +76,7 @@ class Traveller(Protocol):
 
     @property
     def goal(self) -> Pose2 | None:
-        """Goal of its own, even while it makes way; None without one."""
+        """Goal of its own, even while it yields; None without one."""
 
     @property
     def grid(self) -> OccupancyMap | None:
@@ -113,8 +113,8 @@ class _Waiting:
     Attributes:
         traveller: That.
         goal: Its own; with another one it is its own master again.
-        refuge: Where it steps aside to; None if it stands out of the way.
-        until: How far the other one has to come on its way [m].
+        refuge: Where it steps aside to; None if it obstructs nothing.
+        until: Distance that the other one has to advance on its path [m].
     """
 
     traveller: Traveller
@@ -125,22 +125,22 @@ class _Waiting:
 
 @dataclass(slots=True)
 class _Encounter:
-    """A robot that others make way for.
+    """A robot that others yield to.
 
     Attributes:
         leader: That.
         goal: Its goal.
-        way: Its way, shape (n, 2) [m].
+        path: Its path, shape (n, 2) [m].
         along: How far along it each point is, shape (n,) [m].
         waiting: The others.
-        begun: When the others began to make way [s].
+        begun: When the others began to yield [s].
         involved: Names of all robots still involved.
         under_way: Whether the leader has set off.
     """
 
     leader: Traveller
     goal: Pose2 | None
-    way: Floats
+    path: Floats
     along: Floats
     waiting: list[_Waiting]
     begun: float
@@ -214,48 +214,48 @@ class RightOfWay:
     def _meet(self, time: float, free: Sequence[Traveller], everyone: Sequence[Traveller]) -> None:
         """Resume the first robot of a group that blocks itself."""
         standing = [each for each in free if self._stands(time, each)]
-        ways = {each.name: self._way(each) for each in standing}
+        paths = {each.name: self._path_of(each) for each in standing}
         groups = [{each.name} for each in standing]
         for each in standing:
             for other in standing:
-                if each is not other and _blocks(other, each, ways[each.name]) is not None:
+                if each is not other and _blocks(other, each, paths[each.name]) is not None:
                     joined = [group for group in groups if group & {each.name, other.name}]
                     groups = [group for group in groups if group not in joined]
                     groups.append(set().union(*joined))
         for group in groups:
             members = [each for each in standing if each.name in group]
             if len(members) > 1 and not any(
-                self._begin(time, leader, ways[leader.name], members, everyone)
+                self._begin(time, leader, paths[leader.name], members, everyone)
                 for leader in members
             ):
                 for each in members:
                     self._watches[each.name].since += _RETRY
 
-    def _way(self, traveller: Traveller) -> Floats:
+    def _path_of(self, traveller: Traveller) -> Floats:
         goal, grid, body = traveller.goal, traveller.grid, traveller.body
         if goal is None or grid is None or body is None:
             return np.zeros((0, 2))
-        return self._map(grid).way(body, goal)
+        return self._map(grid).path(body, goal)
 
     def _begin(
         self,
         time: float,
         leader: Traveller,
-        way: Floats,
+        path: Floats,
         members: Sequence[Traveller],
         everyone: Sequence[Traveller],
     ) -> bool:
-        """Start an encounter: others make way for one, if there is room."""
-        reached = {each.name: _blocks(each, leader, way) for each in members}
+        """Start an encounter: others yield to one, if there is room."""
+        reached = {each.name: _blocks(each, leader, path) for each in members}
         # The nearest chooses first: one behind it can go farther back.
-        in_way = sorted(
+        obstructing = sorted(
             (each for each in members if reached[each.name] is not None),
             key=lambda each: reached[each.name] or 0,
         )
-        along = np.append(0.0, np.hypot(*np.diff(way, axis=0).T).cumsum())
-        moving = {leader.name, *(each.name for each in in_way)}
+        along = np.append(0.0, np.hypot(*np.diff(path, axis=0).T).cumsum())
+        moving = {leader.name, *(each.name for each in obstructing)}
         fixed = [e.body for e in everyone if e.name not in moving and e.body is not None]
-        waiting = self._steps_aside(leader, way, along, in_way, fixed)
+        waiting = self._steps_aside(leader, path, along, obstructing, fixed)
         if not waiting:
             return False
         waiting += [
@@ -270,30 +270,30 @@ class RightOfWay:
             if one.refuge is not None:
                 one.traveller.step_aside(one.refuge.x, one.refuge.y, time)
         self._encounters.append(
-            _Encounter(leader, leader.goal, way, along, waiting, time, involved)
+            _Encounter(leader, leader.goal, path, along, waiting, time, involved)
         )
         return True
 
     def _steps_aside(
         self,
         leader: Traveller,
-        way: Floats,
+        path: Floats,
         along: Floats,
-        in_way: Sequence[Traveller],
+        obstructing: Sequence[Traveller],
         fixed: Sequence[RobotDisc],
     ) -> list[_Waiting]:
-        """Return refuges for the robots in a leader's way; empty if one of them has none."""
+        """Return refuges for the robots on a leader's path; empty if one of them has none."""
         first, found = leader.body, list[_Waiting]()
         taken: list[RobotDisc] = []
-        for each in in_way:
+        for each in obstructing:
             body, grid = each.body, each.grid
             if first is None or body is None or grid is None:
                 return []
-            place = self._map(grid).refuge(body, first, way, fixed, taken)
+            place = self._map(grid).refuge(body, first, path, fixed, taken)
             if place is None:
                 return []
             taken.append(place)
-            near = int(np.hypot(*(way - (place.x, place.y)).T).argmin())
+            near = int(np.hypot(*(path - (place.x, place.y)).T).argmin())
             until = min(float(along[near]) + place.apart(first), float(along[-1]))
             found.append(_Waiting(each, each.goal, place, until))
         return found
@@ -318,7 +318,7 @@ class RightOfWay:
                 met.under_way = True
                 self._watches[leader.name].since = time
             return True
-        come = float(met.along[int(np.hypot(*(met.way - (body.x, body.y)).T).argmin())])
+        come = float(met.along[int(np.hypot(*(met.path - (body.x, body.y)).T).argmin())])
         for each in list(met.waiting):
             if come < each.until or self._is_passed_by(time, each.traveller, present):
                 continue
@@ -362,12 +362,12 @@ class RightOfWay:
         return False
 
 
-def _blocks(other: Traveller, traveller: Traveller, way: Floats) -> int | None:
+def _blocks(other: Traveller, traveller: Traveller, path: Floats) -> int | None:
     """Return the index of the path point that another robot blocks; None if it is beside or behind."""
     body, own = other.body, traveller.body
-    if body is None or own is None or not len(way):
+    if body is None or own is None or not len(path):
         return None
-    away = np.hypot(*(way - (body.x, body.y)).T)
+    away = np.hypot(*(path - (body.x, body.y)).T)
     nearest = int(away.argmin())
     near = away[nearest] < body.circumscribed + own.circumscribed
     return nearest if near and nearest > 0 else None

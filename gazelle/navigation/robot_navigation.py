@@ -43,7 +43,7 @@ class RobotNavigation(ModelPlugin):
 
     Attributes:
         pilots: Of the worlds where it has had a goal.
-        traffic: Of each world, what sees that robots make way; all robots share it.
+        traffic: Of each world, the arbiter of right of way, shared by all robots.
     """
 
     update_rate = 10.0
@@ -99,10 +99,10 @@ class RobotNavigation(ModelPlugin):
                 of ``slam_gmapping``.
             grid: The map; by default the true one of the world, without robots.
             localization: ``truth``; ``amcl`` by odometry and laser, from the true pose on; or ``slam``: the
-                map is made on the way, in the frame of the odometry's beginning.
+                map is built while driving, in the frame of the odometry's beginning.
 
         Raises:
-            SimulationError: There is no such way, or a map is given that is to be made.
+            SimulationError: The method is unknown, or a map is given that is to be built.
             Error: A parameter is wrong.
         """
         if localization not in _SOURCES:
@@ -196,7 +196,7 @@ class RobotNavigation(ModelPlugin):
         return list(range(nworld)) if found is None else found.tolist()
 
     def plans(self) -> dict[int, NavigationPlan]:
-        """Return the goal of each world that has one, and the way there."""
+        """Return the goal of each world that has one, and the path to it."""
         goals = {world: pilot.goal for world, pilot in self.pilots.items()}
         return {
             world: NavigationPlan(goal, self.pilots[world].path)
@@ -227,9 +227,9 @@ class RobotNavigation(ModelPlugin):
                 command = self._robot.inputs["cmd_vel"]
                 linear_command = forward if not aside else (forward, aside, 0.0)
                 command.send(linear_command, turning, np.array([world]))
-            self._make_way(time, world)
+            self._resolve_deadlocks(time, world)
 
-    def _make_way(self, time: float, world: int) -> None:
+    def _resolve_deadlocks(self, time: float, world: int) -> None:
         """Resolve deadlocks between robots of a world."""
         traffic = self.traffic.setdefault(world, RightOfWay())
         if time < traffic.due - 1e-6:
@@ -293,9 +293,9 @@ class RobotNavigation(ModelPlugin):
 
     def _listen(self) -> None:
         if self._sleep is None:
-            self._sleep = self._unit.subscribe(self._hear)
+            self._sleep = self._unit.subscribe(self._receive_scan)
 
-    def _hear(self, unit: SensorUnit) -> None:
+    def _receive_scan(self, unit: SensorUnit) -> None:
         self._scan = unit.reading(unit.current())
 
     def _fall_asleep(self) -> None:
@@ -314,7 +314,7 @@ class RobotNavigation(ModelPlugin):
 
 
 class GoalTask:
-    """A goal that a robot is on its way to.
+    """An active goal of a robot.
 
     Args:
         robot: That.

@@ -1,4 +1,4 @@
-"""The cheapest way over a grid: A*."""
+"""The cheapest path over a grid: A*."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ Cell = tuple[int, int]
 _DIAGONAL = math.sqrt(2.0)
 
 
-def find_way(prices: Floats, start: Cell, goal: Cell) -> list[Cell] | None:
-    """Return the cheapest way from cell to cell, to all eight neighbours; None if there is none.
+def find_path(prices: Floats, start: Cell, goal: Cell) -> list[Cell] | None:
+    """Return the cheapest path from cell to cell, to all eight neighbours; None if there is none.
 
     Method: Hart, Nilsson and Raphael, "A formal basis for the heuristic determination of
     minimum cost paths", 1968; the heuristic is the octile distance.
@@ -23,7 +23,7 @@ def find_way(prices: Floats, start: Cell, goal: Cell) -> list[Cell] | None:
     Args:
         prices: Of entering a cell, a length away: at least 1, and inf for what is closed;
             shape (columns, rows).
-        start: Where the way begins; it may be closed.
+        start: Start of the path; it may be closed.
         goal: Where it ends.
 
     Returns:
@@ -40,10 +40,10 @@ def find_way(prices: Floats, start: Cell, goal: Cell) -> list[Cell] | None:
     came = _expand(price, stride, first, last)
     if last != first and last not in came:
         return None
-    way = [last]
-    while way[-1] != first:
-        way.append(came[way[-1]])
-    return [(cell // stride - 1, cell % stride - 1) for cell in reversed(way)]
+    path = [last]
+    while path[-1] != first:
+        path.append(came[path[-1]])
+    return [(cell // stride - 1, cell % stride - 1) for cell in reversed(path)]
 
 
 def _expand(price: list[float], stride: int, first: int, last: int) -> dict[int, int]:

@@ -13,7 +13,7 @@ from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
 from gazelle.errors import SimulationError
 from gazelle.navigation.avoidance import safe_velocity
-from gazelle.navigation.following import Pose2, turn_to, wanted_velocity, wrapped
+from gazelle.navigation.following import Pose2, following_velocity, turn_to, wrapped
 from gazelle.navigation.grid import OccupancyGrid
 from gazelle.navigation.limits import BaseLimits
 from gazelle.navigation.planning import is_blocked, plan
@@ -21,7 +21,7 @@ from gazelle.sensors import LaserScan
 
 _HORIZON = 6.0  # what is farther away is not put on the map [m]
 _PLAN_EVERY = 0.5  # least time between two plans [s]
-_WAIT = 2.0  # the same where there was no way [s]
+_WAIT = 2.0  # the same if there was no path [s]
 _STRAY = 0.35  # a base farther off its path gets a new one [m]
 _STUCK_AFTER = 4.0  # without getting anywhere, it looks around [s]
 _LOOK_AROUND = 2.0  # [s]
@@ -35,7 +35,7 @@ class GoalSeeker:
     Plain numbers in, plain numbers out; it knows no simulation. Nothing is known about the
     ground at first: what the laser sees is put on a map, unknown ground counts as free, and
     the path is planned again when something turns up on it. Of a goal too near to an obstacle
-    the nearest free place is taken; where there is no way, it waits for one.
+    the nearest free place is taken; without a path, it waits for one.
 
     Args:
         limits: Of the base.
@@ -46,7 +46,7 @@ class GoalSeeker:
 
     Attributes:
         grid: The map.
-        path: Points (x, y) to the goal [m], shape (n, 2); none if there is no way.
+        path: Points (x, y) to the goal [m], shape (n, 2); empty without one.
         arrived: Whether the last goal is reached.
         plans: Counts plans.
     """
@@ -117,12 +117,12 @@ class GoalSeeker:
         if self._goal is None or scan is None:
             self._velocity = (0.0, 0.0)
             return self._velocity
-        wanted = self._wanted(pose, time)
+        desired = self._desired_velocity(pose, time)
         points = _in_frame(self._seen, pose)
-        self._velocity = safe_velocity(wanted, self._velocity, points, interval, self.limits)
+        self._velocity = safe_velocity(desired, self._velocity, points, interval, self.limits)
         return self._velocity
 
-    def _wanted(self, pose: Pose2, time: float) -> tuple[float, float]:
+    def _desired_velocity(self, pose: Pose2, time: float) -> tuple[float, float]:
         """Return the velocity that would be right without obstacles."""
         self._plan(pose, time)
         if not len(self.path):
@@ -130,13 +130,13 @@ class GoalSeeker:
         if self._is_there(pose):
             if not self._replaced(time):
                 return self._finish(pose)
-            self._plan(pose, time, anew=True)
+            self._plan(pose, time, force=True)
             if not len(self.path) or self._is_there(pose):
                 return 0.0, 0.0
         self._turning = False
         if self._is_stuck(pose, time):
             return 0.0, 0.5 * self.limits.angular
-        return wanted_velocity(self.path, pose, self.limits)
+        return following_velocity(self.path, pose, self.limits)
 
     def _is_there(self, pose: Pose2) -> bool:
         """Return whether the end of the path is reached; turning there may shift the base a little."""
@@ -161,13 +161,13 @@ class GoalSeeker:
         self.arrived = True
         return 0.0, 0.0
 
-    def _plan(self, pose: Pose2, time: float, *, anew: bool = False) -> None:
+    def _plan(self, pose: Pose2, time: float, *, force: bool = False) -> None:
         """Plan if there is no path, or if it is no good any more, but not too often."""
         pause = _PLAN_EVERY if len(self.path) else _WAIT
         if self._goal is None or time - self._planned_at < pause:
             return
         here = np.array(pose[:2])
-        if len(self.path) and not anew:
+        if len(self.path) and not force:
             near = float(np.hypot(*(self.path - here).T).min())
             if near < _STRAY and not is_blocked(self.grid, self.path, here, self.limits):
                 return

@@ -26,7 +26,7 @@ class GoalPose:
 
 @dataclass(frozen=True, slots=True)
 class Path:
-    """The way that is left, in every world.
+    """The remaining path, in every world.
 
     Attributes:
         stamp: Simulated time [ns].

@@ -23,7 +23,7 @@ from gazelle.navigation.right_of_way import RightOfWaySettings
 from gazelle.navigation.world_exploration import WorldExploration
 
 EXPLORED = "Exploration stopped."
-"""As explore_lite says it."""
+"""The message of explore_lite."""
 _ASIDE = 0.1
 """Tolerance of a position [m]."""
 
@@ -33,17 +33,17 @@ class WorldPilot:
 
     Args:
         stack: Costmaps and state machine.
-        grid: The map; None for one that is made on the way.
+        grid: The map; None for one that is built while driving.
         height: Of the laser [m].
-        localizer: Says where the robot is, and may make the map; None for the truth.
+        localizer: Estimates the pose, and may build the map; None for the true pose.
         name: Of the robot.
-        right_of_way: How it makes way for others, which `RightOfWay` sees to.
+        right_of_way: Settings for `RightOfWay`.
 
     Attributes:
         outcome: How the last goal ended.
-        text: What was said of it.
+        text: Its message.
         path: The last global plan to the goal, shape (n, 3): x, y and heading [m, rad].
-        grid: The map; None before the first scan of one that is made on the way.
+        grid: The map; None before the first scan of one that is built while driving.
         aside: Whether it stands where it was sent aside.
     """
 
@@ -93,7 +93,7 @@ class WorldPilot:
 
     @property
     def makes_way(self) -> bool:
-        """True if it makes way for others: not if it makes its map, whose frame is its own."""
+        """True if it yields to others: not if it builds its map, whose frame is its own."""
         explores = self._exploration is not None or isinstance(self._localizer, LiveMap)
         return self.right_of_way.enabled and not explores
 
@@ -109,23 +109,23 @@ class WorldPilot:
         """Set a goal."""
         self.outcome, self.text, self.path = None, "", np.zeros((0, 3))
         self._exploration = None
-        self._have_way()
+        self._end_encounter()
         self._stack.move_base.set_goal(goal, time)
 
     def explore(self, settings: ExploreSettings) -> None:
         """Explore frontiers of the map until none is left."""
         self.outcome, self.text, self.path = None, "", np.zeros((0, 3))
-        self._have_way()
+        self._end_encounter()
         self._stack.move_base.cancel()
         self._exploration = WorldExploration(settings)
 
     def cancel(self) -> None:
         """Cancel the goal."""
         self._exploration = None
-        self._have_way()
+        self._end_encounter()
         self._stack.move_base.cancel()
 
-    # Making way; see `RightOfWay` --------------------------------------------------------------
+    # Yielding; see `RightOfWay` --------------------------------------------------------------
 
     def stand(self) -> None:
         """Wait, with the goal deferred."""
@@ -136,7 +136,7 @@ class WorldPilot:
         """Move to a place and wait there, in whatever heading."""
         heading = 0.0 if self._pose is None else self._pose[2]
         self._refuge, self.aside = (x, y, heading), False
-        self._look_anew()
+        self._clear_global_obstacles()
         self._stack.move_base.set_goal(self._refuge, time)
 
     def go_on(self, time: float, known: RefugeMap, others: Sequence[RobotDisc]) -> None:
@@ -146,10 +146,10 @@ class WorldPilot:
         and robots beside and behind this one are kept, as it may not see them again.
         """
         goal = self._put_off
-        self._have_way()
+        self._end_encounter()
         if goal is None or self._pose is None:
             return
-        self._look_anew()
+        self._clear_global_obstacles()
         local = self._stack.local.costmap
         rows, columns = np.nonzero(local.cells == LETHAL)
         cells = np.stack((columns, rows), axis=1)
@@ -165,10 +165,10 @@ class WorldPilot:
             local.clear((*spot, 0.0), 0.1 * local.resolution, names, outside=False)
         self._stack.move_base.set_goal(goal, time)
 
-    def _have_way(self) -> None:
+    def _end_encounter(self) -> None:
         self._put_off, self._refuge, self.aside = None, None, False
 
-    def _look_anew(self) -> None:
+    def _clear_global_obstacles(self) -> None:
         """Clear all obstacles of the global costmap: others have moved since they were seen."""
         for layer in self._stack.whole.costmap.layers:
             if isinstance(layer, ObstacleLayer):

@@ -47,6 +47,6 @@ def on_a_graph(name):
         for reader in READERS:
             getattr(made, reader, lambda: None)()
         if "forwards_reward" in values[made.space]:
-            made._read_way_rewards()
+            made._read_motion_rewards()
     made.steps_beyond_done, made.dec_obs = None, 1
     return made

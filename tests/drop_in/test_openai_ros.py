@@ -180,7 +180,7 @@ def test_a_silent_topic_is_named(env, monkeypatch):
     monkeypatch.setattr(
         robot, "sensors", [topics.RobotTopic("scan", "/cartpole_v0/joint_stats", "a/B")]
     )
-    robot._heard["scan"] = 0
+    robot._received["scan"] = 0
     with pytest.raises(TaskError, match=r"nobody publishes it.*joint_states"):
         robot._check_all_sensors_ready()
     monkeypatch.setattr(

@@ -215,11 +215,11 @@ def test_a_refuge_is_beside_the_way_and_never_beyond_the_leader(first, second, r
     ground = RefugeMap(corridor_map(bay=True))
     leader = RobotDisc(first, 0.8, 0.6 * radius, radius)
     robot = RobotDisc(second, 0.8, 0.6 * radius, radius)
-    way = ground.way(leader, (9.6 if second > first else 0.4, 0.8))
-    found = ground.refuge(robot, leader, way, [], [])
+    path = ground.path(leader, (9.6 if second > first else 0.4, 0.8))
+    found = ground.refuge(robot, leader, path, [], [])
     reachable = (6.5 - first) * (second - first) > 0.0
     if found is not None:
-        assert np.hypot(*(way - (found.x, found.y)).T).min() >= robot.apart(leader) - 0.05
+        assert np.hypot(*(path - (found.x, found.y)).T).min() >= robot.apart(leader) - 0.05
         assert ground.has(np.array([[found.x, found.y]])).sum() == 0 or radius < 0.15
     if reachable and abs(first - 6.5) > 1.5:
         assert found is not None

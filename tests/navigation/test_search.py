@@ -10,7 +10,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gazelle.navigation.search import find_way
+from gazelle.navigation.search import find_path
 
 PRICES = st.lists(
     st.lists(st.sampled_from([1.0, 1.0, 1.0, 3.0, math.inf]), min_size=7, max_size=7),
@@ -44,7 +44,7 @@ def least_price(prices, start, goal):
 @given(PRICES, st.tuples(st.integers(0, 5), st.integers(0, 6)))
 def test_no_way_is_cheaper(rows, goal):
     prices = np.array(rows)
-    way = find_way(prices, (0, 0), goal)
+    way = find_path(prices, (0, 0), goal)
     least = least_price(prices, (0, 0), goal) if math.isfinite(prices[goal]) else None
     if least is None:
         assert way is None
@@ -58,4 +58,4 @@ def test_no_way_is_cheaper(rows, goal):
 def test_a_closed_wall_has_no_way_through():
     prices = np.ones((5, 5))
     prices[2] = math.inf
-    assert find_way(prices, (0, 0), (4, 4)) is None
+    assert find_path(prices, (0, 0), (4, 4)) is None

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from gazelle.errors import SimulationError
 from gazelle.navigation import BaseLimits, GoalSeeker
 from gazelle.navigation.avoidance import safe_velocity
-from gazelle.navigation.following import wanted_velocity
+from gazelle.navigation.following import following_velocity
 from gazelle.sensors import LaserScan
 
 ANGLES = np.linspace(-0.75 * math.pi, 0.75 * math.pi, 181)
@@ -161,7 +161,7 @@ def test_it_brakes_before_a_wall():
 
 def test_a_path_behind_is_turned_to_first():
     path = np.array([(0.0, 0.0), (-1.0, 0.1)])
-    forward, turning = wanted_velocity(path, (0.0, 0.0, 0.0), BaseLimits())
+    forward, turning = following_velocity(path, (0.0, 0.0, 0.0), BaseLimits())
     assert forward == 0.0
     assert turning > 1.0
 

@@ -27,7 +27,7 @@ __all__ = [
 ]
 
 Step = tuple[Any, Any, bool, dict[str, Any]]
-"""Observation, reward, whether the episode is over, and what else there is to say."""
+"""Observation, reward, whether the episode is over, and additional information."""
 
 
 class Env(Closeable):
@@ -51,7 +51,7 @@ class Env(Closeable):
         """Step the environment.
 
         Raises:
-            NotImplementedError: The class does not say how.
+            NotImplementedError: The class does not define it.
         """
         result: Step = self._given("_step")(action)
         return result
@@ -60,7 +60,7 @@ class Env(Closeable):
         """Start an episode; returns the first observation.
 
         Raises:
-            NotImplementedError: The class does not say how.
+            NotImplementedError: The class does not define it.
         """
         return self._given("_reset")()
 
@@ -68,7 +68,7 @@ class Env(Closeable):
         """Show it, or return a picture.
 
         Raises:
-            NotImplementedError: The class does not say how.
+            NotImplementedError: The class does not define it.
         """
         return self._given("_render")(mode=mode)
 
@@ -121,7 +121,7 @@ class GoalEnv(Env):
         """Return the reward for an achieved goal.
 
         Raises:
-            NotImplementedError: The class does not say how.
+            NotImplementedError: The class does not define it.
         """
         raise NotImplementedError(f"{type(self).__name__} has no compute_reward")
 
@@ -190,7 +190,7 @@ class ObservationWrapper(Wrapper):
         """Transform an observation.
 
         Raises:
-            NotImplementedError: The class does not say what.
+            NotImplementedError: The class does not define it.
         """
         return self._given("_observation")(observation)
 
@@ -207,7 +207,7 @@ class RewardWrapper(Wrapper):
         """Transform a reward.
 
         Raises:
-            NotImplementedError: The class does not say what.
+            NotImplementedError: The class does not define it.
         """
         return self._given("_reward")(reward)
 
@@ -224,7 +224,7 @@ class ActionWrapper(Wrapper):
         """Transform an action.
 
         Raises:
-            NotImplementedError: The class does not say what.
+            NotImplementedError: The class does not define it.
         """
         return self._given("_action")(action)
 
@@ -232,6 +232,6 @@ class ActionWrapper(Wrapper):
         """Return the original of a transformed action.
 
         Raises:
-            NotImplementedError: The class does not say which.
+            NotImplementedError: The class does not define it.
         """
         return self._given("_reverse_action")(action)

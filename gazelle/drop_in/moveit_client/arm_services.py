@@ -35,10 +35,10 @@ def main(arguments: Sequence[str]) -> int:
 
 
 class ArmServices:
-    """Moves a group to poses and joint values, and says where it is.
+    """Moves a group to poses and joint values, and reports its state.
 
     Args:
-        node: Serves; its parameter ``~group`` names the group, and ``~use_orientation`` says whether
+        node: Serves; its parameter ``~group`` names the group, and ``~use_orientation`` sets whether
             ``ee_traj_srv`` takes the whole orientation it is given, and not only ``w``, as the original.
             ``~max_velocity_scaling_factor`` and ``~max_acceleration_scaling_factor`` are 1 unless set,
             as in the MoveIt of that time.

@@ -14,7 +14,7 @@ from gazelle_ros.messages import DeserializationError, Message, load_message
 
 
 class ByteInterface:
-    """The methods of a class of ``moveit_commander``, with messages as bytes, both ways.
+    """The methods of a class of ``moveit_commander``, with requests and responses as bytes.
 
     Subclasses fill the class attributes; arguments are those of the other class.
 

@@ -30,13 +30,13 @@ _ENDS = ("q", "quit", "exit")
 
 def main(arguments: Sequence[str]) -> int:
     """Run commands until the input ends or one quits; returns the exit code."""
-    asked = _parser().parse_args(parse_arguments(arguments, _NAME).plain)
+    options = _parser().parse_args(parse_arguments(arguments, _NAME).plain)
     init_node(_NAME, argv=[*arguments], anonymous=True, disable_signals=True)
     with session.node() as node, contextlib.suppress(KeyboardInterrupt):
         interpreter = MoveGroupCommandInterpreter()
-        if asked.group_name:
-            _tell(interpreter.execute(f"use {asked.group_name}"))
-        if asked.service:
+        if options.group_name:
+            _show(interpreter.execute(f"use {options.group_name}"))
+        if options.service:
             sys.stdout.write("Running ROS service\n")
             return spin(node)
         converse(interpreter, node.master_uri)
@@ -73,13 +73,13 @@ def converse(interpreter: MoveGroupCommandInterpreter, master: str) -> None:
         if line.lower() in _ENDS:
             break
         if line.lower() == "host":
-            _tell((MoveGroupInfoLevel.INFO, f"Master is '{master}'"))
+            _show((MoveGroupInfoLevel.INFO, f"Master is '{master}'"))
         elif line:
-            _tell(interpreter.execute(line))
+            _show(interpreter.execute(line))
     sys.stdout.write("Bye bye!\n")
 
 
-def _tell(answer: Answer) -> None:
+def _show(answer: Answer) -> None:
     """Show an answer; in colours on a terminal."""
     level, text = answer
     colour = _COLOURS.get(level, "") if sys.stdout.isatty() else ""

@@ -18,7 +18,7 @@ from gazelle_ros.msgs import moveit_msgs
 class GroupTarget:
     """A state of the whole robot, of which a group's part is the goal.
 
-    All setters say whether what they set is within limits; it is set in any case, as in MoveIt, but
+    All setters return whether the value is within limits; it is set in any case, as in MoveIt, but
     for names that are not there.
 
     Args:

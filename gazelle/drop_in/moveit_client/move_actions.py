@@ -73,7 +73,7 @@ class MoveActions:
         self._clients[action].send_goal(goal)
 
     def run(self, action: str, goal: Message) -> Any:
-        """Send a goal and wait for its result; its error code says how it went."""
+        """Send a goal and wait for its result; its error code is the outcome."""
         client = self._clients[action]
         client.send_goal(goal)
         client.wait_for_result()
@@ -87,7 +87,7 @@ class MoveActions:
             return none
         return result
 
-    def ask(self, service: str, kind: str, **fields: Any) -> Any:
+    def call(self, service: str, kind: str, **fields: Any) -> Any:
         """Call a service of ``moveit_msgs``.
 
         Raises:

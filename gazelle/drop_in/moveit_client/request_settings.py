@@ -31,7 +31,7 @@ class RequestSettings:
         planner: Its name.
         start: A ``RobotState``.
         workspace: ``WorkspaceParameters``.
-        path, trajectory: ``Constraints`` along the way, and ``TrajectoryConstraints``.
+        path, trajectory: ``Constraints`` along the path, and ``TrajectoryConstraints``.
         look, replan: Whether to look around, and to plan again while moving.
         support: The surface that objects are put on.
     """

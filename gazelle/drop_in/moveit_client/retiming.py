@@ -32,7 +32,7 @@ def retimed(
     """Return a ``moveit_msgs/RobotTrajectory`` along the same path, within limits.
 
     Args:
-        robot: Whose limits count.
+        robot: Its limits apply.
         message: The trajectory.
         velocity: Factor of the limits, within (0, 1]; 1 where it is not.
         acceleration: Likewise.
@@ -67,5 +67,5 @@ def retimed(
     return made
 
 
-def _factor(asked: float) -> float:
-    return float(asked) if 0.0 < asked <= 1.0 else 1.0
+def _factor(requested: float) -> float:
+    return float(requested) if 0.0 < requested <= 1.0 else 1.0

@@ -61,9 +61,9 @@ def keywords(groups: Iterable[str], group: MoveGroupCommander | None) -> dict[st
         group: That is used.
     """
     known = [*group.get_remembered_joint_values()] if group is not None else []
-    ways = ["up", "down", "left", "right", "backward", "forward", "random"]
+    directions = ["up", "down", "left", "right", "backward", "forward", "random"]
     return {
-        "go": [*ways, *known],
+        "go": [*directions, *known],
         "use": [*groups],
         "allow": ["replanning", "looking"],
         "constrain": list(group.get_known_constraints()) if group is not None else [],

@@ -19,7 +19,7 @@ GO_DIRS = {
     "left": (1, 1), "right": (1, -1), "y": (1, 1),
     "forward": (0, 1), "backward": (0, -1), "back": (0, -1), "x": (0, 1),
 }  # fmt: skip
-"""From a word to the axis that it is along, and which way."""
+"""From a word to its axis and sign."""
 _YES = ("1", "true", "T", "True")
 
 Answer = tuple[int, str]
@@ -226,7 +226,7 @@ def go_along(group: MoveGroupCommander, direction: str, distance: str) -> Answer
 def go_offset(
     group: MoveGroupCommander, offset: float, factor: float, axis: int, direction: str
 ) -> Answer:
-    """Move the end effector along an axis, with a word for the way [m]."""
+    """Move the end effector along an axis, in a named direction [m]."""
     if not group.has_end_effector_link():
         return warn(f"No known end effector. Cannot move {direction}")
     try:

@@ -1,4 +1,4 @@
-"""The part of ``MoveGroupCommander`` that says how to plan."""
+"""The planning settings of ``MoveGroupCommander``."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _FLAT, _SOLID = 4, 6
 
 
 class GroupSettings(GroupTargets):
-    """Tolerances, times, factors, planners and constraints; said to ``move_group`` with each request."""
+    """Tolerances, times, factors, planners and constraints; sent to ``move_group`` with each request."""
 
     # -- tolerances ----------------------------------------------------------------------
 

@@ -1,4 +1,4 @@
-"""The part of ``MoveGroupCommander`` that says what a group is and where: names, states, limits."""
+"""The queries of ``MoveGroupCommander``: names, states, limits."""
 
 from __future__ import annotations
 
@@ -99,7 +99,7 @@ class GroupState:
 
     def get_interface_description(self) -> moveit_msgs.msg.PlannerInterfaceDescription:
         """Return a ``PlannerInterfaceDescription``: which planners there are."""
-        answer = self._actions.ask("query_planner_interface", "QueryPlannerInterfaces")
+        answer = self._actions.call("query_planner_interface", "QueryPlannerInterfaces")
         kind = moveit_msgs.msg.PlannerInterfaceDescription
         return answer.planner_interfaces[0] if answer.planner_interfaces else kind()
 
@@ -261,7 +261,7 @@ class GroupState:
         return dict(zip(made.name, made.position, strict=True))
 
     def _read(self, message: moveit_msgs.msg.RobotState) -> Floats:
-        """Return the state that a ``RobotState`` says.
+        """Return the state of a ``RobotState``.
 
         Raises:
             DeserializationError: It names no joints.

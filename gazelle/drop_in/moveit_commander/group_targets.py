@@ -1,4 +1,4 @@
-"""The part of ``MoveGroupCommander`` that says where to go."""
+"""The targets of ``MoveGroupCommander``."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class GroupTargets(GroupState):
     # -- joints --------------------------------------------------------------------------
 
     def get_joint_value_target(self) -> list[float]:
-        """Return values of all variables that are wanted."""
+        """Return the requested values of all variables."""
         return self._joints.values
 
     def set_random_target(self) -> None:
@@ -200,7 +200,7 @@ class GroupTargets(GroupState):
         """Set the robot's present state as start of plans."""
         self._settings.start = here()
 
-    # -- what MoveIt's C++ class does: it says whether it could ----------------------------
+    # -- as MoveIt's C++ class: they return success ----------------------------
 
     def _set_joints(
         self,
@@ -221,14 +221,14 @@ class GroupTargets(GroupState):
         return self._joints.set_all(target)
 
     def _set_joint_state(self, message: sensor_msgs.msg.JointState) -> bool:
-        """Set what a ``sensor_msgs/JointState`` says."""
+        """Set the values of a ``sensor_msgs/JointState``."""
         if len(message.name) != len(message.position):
             LOG.error("sizes of name and position arrays do not match")
             return False
         return self._set_joints(dict(zip(message.name, message.position, strict=True)))
 
     def _set_joints_by(self, pose: geometry_msgs.msg.Pose, eef: str, approx: bool) -> bool:  # noqa: FBT001  # MoveIt's interface
-        """Set joints that bring a link to a ``geometry_msgs/Pose``; False if there are none."""
+        """Set joints that move a link to a ``geometry_msgs/Pose``; False if there are none."""
         return self._solve(pose_of_message(pose), eef, approximate=approx)
 
     def _set_joints_by_stamped(

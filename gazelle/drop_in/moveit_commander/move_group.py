@@ -96,7 +96,7 @@ class MoveGroupCommander(GroupSettings):
         avoid_collisions: Any = True,  # noqa: FBT002
         path_constraints: moveit_msgs.msg.Constraints | None = None,
     ) -> tuple[moveit_msgs.msg.RobotTrajectory, float]:
-        """Return a ``RobotTrajectory`` along straight ways of the end effector.
+        """Return a ``RobotTrajectory`` along straight paths of the end effector.
 
         Args:
             waypoints: ``Pose`` messages, or lists of six or seven numbers.
@@ -106,7 +106,7 @@ class MoveGroupCommander(GroupSettings):
             path_constraints: ``Constraints`` that hold all along.
 
         Returns:
-            The trajectory, and how much of the way that is, from 0 to 1; -1 if it cannot begin.
+            The trajectory, and its fraction of the path, from 0 to 1; -1 if it cannot begin.
         """
         if isinstance(jump_threshold, bool):
             if not isinstance(avoid_collisions, bool):
@@ -133,7 +133,7 @@ class MoveGroupCommander(GroupSettings):
             fields["path_constraints"] = path_constraints
         nothing = moveit_msgs.msg.RobotTrajectory()
         try:
-            answer = self._actions.ask("compute_cartesian_path", "GetCartesianPath", **fields)
+            answer = self._actions.call("compute_cartesian_path", "GetCartesianPath", **fields)
         except RosError as error:
             LOG.error("compute_cartesian_path: %s", error)
             return nothing, -1.0

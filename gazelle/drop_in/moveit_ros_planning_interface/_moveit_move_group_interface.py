@@ -13,7 +13,7 @@ _FROM = "set_joint_value_target_from_"
 
 
 class MoveGroupInterface(ByteInterface):
-    """Plans and moves a group; its setters say whether they could, and raise nothing."""
+    """Plans and moves a group; its setters return success, and raise nothing."""
 
     client: ClassVar[type[Any]] = MoveGroupCommander
     takes: ClassVar = {

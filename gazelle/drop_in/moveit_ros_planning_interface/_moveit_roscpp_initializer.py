@@ -1,7 +1,7 @@
 """The module that ``moveit_commander.roscpp_initializer`` stands on.
 
 There is no roscpp here: the clients share rospy's node, or have one of their own where a script has
-none. What is said of a node before counts for the latter.
+none. The name of a node given before counts for the latter.
 """
 
 from __future__ import annotations

@@ -57,7 +57,7 @@ class GazeboConnection:
         self._answered(self._gazebo.unpause)
 
     def resetSim(self) -> None:  # noqa: N802
-        """Reset as ``reset_world_or_sim`` says."""
+        """Reset by ``reset_world_or_sim``."""
         if self.reset_world_or_sim == SIMULATION:
             self.resetSimulation()
         elif self.reset_world_or_sim == WORLD:

@@ -83,7 +83,7 @@ class GraphEnv(Env):
             self.controllers_object.reset_controllers()
         self._check_all_systems_ready()
 
-    # -- what subclasses say --------------------------------------------------------------------
+    # -- overridden by subclasses --------------------------------------------------------------------
 
     def _set_init_pose(self) -> Any:
         """Move the robot to its initial pose."""

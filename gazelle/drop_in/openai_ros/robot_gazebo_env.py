@@ -17,7 +17,7 @@ class RobotGazeboEnv(GraphEnv):
 
     A step unpauses, applies the action, pauses, and observes. After every episode
     ``openai_ros/RLExperimentInfo`` with its number and reward is published on ``/openai/reward``.
-    Subclasses say what to do in the methods that raise `NotImplementedError` here.
+    Subclasses override the methods that raise `NotImplementedError` here.
 
     Args:
         robot_name_space: Of the robot's controllers; empty for none.

@@ -19,9 +19,9 @@ from gazelle.description import (
     Sphere,
     World,
 )
+from gazelle.formats.inertia_repair import TRIANGLE, TRIANGLE_ROUNDING
 from gazelle.formats.lint.diagnostic import Diagnostic, moving_links_of
 from gazelle.formats.solids import solid_of
-from gazelle.formats.sound import TRIANGLE, TRIANGLE_ROUNDING
 
 # An inertia this many times off the one of a solid of the link's shape is a typing error.
 _FACTOR = 10.0

@@ -24,7 +24,7 @@ from gazelle.formats.lint.diagnostic import Diagnostic, links_of
 
 _MOST_RAYS = 100_000
 
-# Directions in which a lidar within a mesh is looked for a way out.
+# Directions in which a lidar within a mesh is checked for an exit.
 _LOOKS = 12
 
 

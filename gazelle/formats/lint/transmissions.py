@@ -15,12 +15,12 @@ _PLUGIN = "gazebo_ros_control"
 def lint(world: World) -> Iterator[Diagnostic]:
     """Yield findings on every model with the plugin of ros_control."""
     for model in world.models:
-        yield from _strangers(model)
+        yield from _unknown_joints(model)
         if any(_PLUGIN in plugin.filename for plugin in model.plugins):
             yield from _left_out(model)
 
 
-def _strangers(model: Model) -> Iterator[Diagnostic]:
+def _unknown_joints(model: Model) -> Iterator[Diagnostic]:
     """Yield transmissions of unknown joints."""
     known = {joint.name for joint in model.joints}
     for each in model.transmissions:

@@ -112,8 +112,8 @@ def _falling(world: World) -> Iterator[Diagnostic]:
         held = any(j.parent == "world" for p in model.walk() for j in p.model.joints)
         weightless = all(not link.gravity for p in model.walk() for link in p.model.links)
         links = [link for p in model.walk() for link in p.model.links]
-        loose = not (model.static or held or weightless or any(link.kinematic for link in links))
-        if grounded and links and loose and not model.has_collisions:
+        free = not (model.static or held or weightless or any(link.kinematic for link in links))
+        if grounded and links and free and not model.has_collisions:
             yield Diagnostic(
                 "falls",
                 f"model '{model.name}' has no collision, so it falls through the ground",

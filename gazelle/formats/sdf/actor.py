@@ -20,7 +20,7 @@ ACTOR = f"{PREFIX}:actor"
 # A person, where only the skin is known: height and radius, and where the hip is [m].
 _HEIGHT, _RADIUS, _HIP = 1.8, 0.25, 1.0
 # This plugin moves actors by their hip, whose y points up.
-_WALKER = "ActorPlugin"
+_ACTOR_PLUGIN = "ActorPlugin"
 
 
 def as_model(node: Parameters) -> Parameters:
@@ -68,15 +68,15 @@ def _body(node: Parameters) -> Parameters:
     return made("link", "", visual, ghost, like=node, attributes={"name": "body"})
 
 
-def _walks(node: Parameters) -> bool:
+def _is_plugin_driven(node: Parameters) -> bool:
     """Return whether a plugin drives the actor, which then follows no script."""
     files = (plugin.attributes.get("filename", "") for plugin in node.find_all("plugin"))
-    return any(_WALKER in file for file in files)
+    return any(_ACTOR_PLUGIN in file for file in files)
 
 
 def _stance(node: Parameters, factor: float) -> Pose:
     """Return the pose of the feet in the moving frame."""
-    if _walks(node):
+    if _is_plugin_driven(node):
         return Pose(y=-_HIP * factor, roll=-math.pi / 2.0)
     return Pose()
 
@@ -104,7 +104,11 @@ def _ghost(name: str, pose: Parameters | None, shape: Parameters) -> Parameters:
 def _script(node: Parameters) -> Parameters | None:
     """Return the plugin that moves the actor; None if it has no trajectory, or does not start."""
     script = node.find("script")
-    if script is None or _walks(node) or not values.flag(script, "auto_start", default=True):
+    if (
+        script is None
+        or _is_plugin_driven(node)
+        or not values.flag(script, "auto_start", default=True)
+    ):
         return None
     trajectories = list(_trajectories(script))
     if not trajectories:

@@ -202,7 +202,7 @@ def _direction(
     """Return the axis in the joint frame.
 
     Up to SDF 1.4 it is written in the model frame; in 1.5 and 1.6
-    ``<use_parent_model_frame>`` says so; since 1.7 ``expressed_in`` names the frame.
+    if ``<use_parent_model_frame>`` is set; since 1.7 ``expressed_in`` names the frame.
     """
     place = node.find("xyz")
     written = direction(values.vector(node, "xyz", (0.0, 0.0, 1.0)), place or node, reading)

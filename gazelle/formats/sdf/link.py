@@ -5,6 +5,7 @@ from __future__ import annotations
 from gazelle.description import Collision, Inertial, Link, Parameters, Pose, Visual
 from gazelle.errors import FormatError
 from gazelle.formats import values
+from gazelle.formats.inertia_repair import is_valid, valid_inertial
 from gazelle.formats.reading import Reading
 from gazelle.formats.sdf.automatic import automatic_inertial, is_automatic
 from gazelle.formats.sdf.duplicates import LINK_PARTS, with_own_names
@@ -18,7 +19,6 @@ from gazelle.formats.sdf.plugin import read_plugins
 from gazelle.formats.sdf.pose import frame_of, read_pose
 from gazelle.formats.sdf.sensor import Placer, read_sensor
 from gazelle.formats.sdf.surface import read_surface
-from gazelle.formats.sound import is_sound, sound_inertial
 
 _EXTRAS = (
     "audio_sink", "audio_source", "battery", "must_be_base_link", "particle_emitter", "projector",
@@ -73,12 +73,12 @@ def _inertial(
             raise
         reading.note(f"{error.message}; the model is static, so it was ignored", node)
         return None
-    if node is None or inertial is None or (static and is_sound(inertial)):
+    if node is None or inertial is None or (static and is_valid(inertial)):
         return inertial
     if static:
         reading.note("no body has this inertial; the model is static, so it was ignored", node)
         return None
-    return sound_inertial(inertial, collisions, node, reading)
+    return valid_inertial(inertial, collisions, node, reading)
 
 
 def placer(link: str, scope: Scope) -> Placer:

@@ -26,11 +26,11 @@ class ModelFrames:
     Attributes:
         node: The ``<model>``; for an included one, that of its own file.
         version: Of the file it stands in.
-        name: Its name, after what an include says.
+        name: Its name, after an include's override.
         pose: As written, in the frame ``relative_to`` of the parent.
         relative_to: Frame of the parent.
         placement_frame: Its own frame that ``pose`` places.
-        static: What an include says; None for what the model itself says.
+        static: Override of an include; None for the model's own value.
         plugins: ``<plugin>`` elements that an include adds.
         file: File to read it from, when it is another one.
         scope: Its frames.
@@ -104,7 +104,7 @@ def draft_link(node: Parameters, scope: Scope) -> None:
 
 
 def draft_joint(node: Parameters, scope: Scope) -> None:
-    """Add a joint's frame, which is written in its child's unless it says otherwise."""
+    """Add a joint's frame, by default relative to its child's."""
     pose = node.find("pose")
     child = values.word(node, "child")
     name = values.attribute(node, "name")

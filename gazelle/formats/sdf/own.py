@@ -22,7 +22,7 @@ _WORLD = "world"
 def fixed_whole(model: Model) -> bool:
     """Return whether fixed joints hold all links of a model to the world, so that nothing can move.
 
-    Such a robot of URDF is static to Gazelle. SDF's ``<static>`` would say more: of a static model
+    Such a robot of URDF is static to Gazelle. SDF's ``<static>`` would mean more: of a static model
     Gazebo has no joints.
     """
     held = {_WORLD}

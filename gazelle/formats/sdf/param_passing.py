@@ -1,7 +1,7 @@
 """``<experimental:params>`` of an ``<include>``: changes to the included model, as in libsdformat.
 
 Each element in it names one of the included model by its tag and by ``element_id``, its name after
-those of what it is in (``arm::wrist::camera``), and says with ``action`` what becomes of it:
+those of what it is in (``arm::wrist::camera``), and selects with ``action`` one of:
 
     add       it becomes a part of what ``element_id`` names (the model where that is empty)
     remove    the one named goes; with children, only those of its parts go

@@ -23,7 +23,7 @@ def read_sdf(root: Parameters, reading: Reading) -> World:
     """Read the first world of a file; without one, a world of just the models.
 
     Raises:
-        FormatError: The file says something that cannot be.
+        FormatError: The content of the file is invalid.
     """
     version = version_of(root, reading)
     root = upgraded(root, version)

@@ -1,7 +1,7 @@
 """Files of SDF 1.0 to 1.3 as they are written since 1.4.
 
 In 1.0 nearly all values were attributes: ``<box size="1 1 1"/>``. Since 1.2 they are
-elements. Which name is an attribute still, the schema says. What else moved is in SDF's own
+elements. The schema lists the attributes. What else moved is in SDF's own
 rules of conversion (``1_3.convert``) and in the files of that time. What moved later is in ``old_noise``.
 """
 

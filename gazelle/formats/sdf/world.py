@@ -142,7 +142,7 @@ def _since_1_6(node: Parameters, tag: str, default: Vector3) -> Vector3:
 
 
 def _extra(node: Parameters, camera: Parameters | None) -> Parameters | None:
-    """Return an element that is kept whole; of ``<gui>`` what the world's camera does not say."""
+    """Return an element that is kept whole; of ``<gui>`` what the world's camera lacks."""
     if node.tag not in _EXTRAS:
         return None
     if node.tag != "gui" or camera is None or camera not in node.children:

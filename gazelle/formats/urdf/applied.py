@@ -105,7 +105,7 @@ def real(elements: list[Parameters], tag: str, default: float) -> float:
 def material(elements: list[Parameters], reading: Reading) -> Material | None:
     """Return a visual's material from the elements, as written; None without one.
 
-    A whole ``<material>`` replaces what was said before; the name of a script goes into it.
+    A whole ``<material>`` replaces earlier values; the name of a script goes into it.
     """
     found: Material | None = None
     for element in elements:

@@ -68,7 +68,7 @@ class Extensions:
         return default if child is None else values.parse_real(child, text(child), f"<{tag}>")
 
     def yes(self, reference: str, *tags: str) -> bool | None:
-        """Return whether a flag is set; None where the file does not say."""
+        """Return whether a flag is set; None if the file does not set it."""
         child = self.last(reference, *tags)
         return None if child is None else text(child).lower() in _YES
 

@@ -1,6 +1,6 @@
 """Plugins of a URDF with a ``<bodyName>`` or ``<frameName>`` that was lumped into another link.
 
-libsdformat writes the name of the body there and adds the way to it to ``<xyzOffset>`` and
+libsdformat writes the name of the body there and adds the offset to it to ``<xyzOffset>`` and
 ``<rpyOffset>``, once for each of the two tags; Gazebo's plugins know links only.
 """
 

@@ -19,6 +19,7 @@ from gazelle.description import (
     Pose,
 )
 from gazelle.formats import values
+from gazelle.formats.inertia_repair import valid_inertial
 from gazelle.formats.reading import Reading
 from gazelle.formats.sdf.build import made, with_child
 from gazelle.formats.sdf.frames import MODEL, Scope
@@ -31,7 +32,6 @@ from gazelle.formats.sdf.own import fixed_whole
 from gazelle.formats.sdf.plugin import read_plugin
 from gazelle.formats.sdf.pose import read_pose
 from gazelle.formats.sdf.sensor import read_sensor
-from gazelle.formats.sound import sound_inertial
 from gazelle.formats.urdf.elements import Paint, read_origin, read_paint
 from gazelle.formats.urdf.extensions import LINK_SDF, Extensions, drop_unused, read_extensions
 from gazelle.formats.urdf.lump import body_inertial
@@ -97,7 +97,7 @@ def _poses(found: Iterable[LumpedLink], tree: UrdfTree) -> dict[str, Pose]:
 def _paints(root: Parameters, reading: Reading) -> dict[str, Paint]:
     """Return materials by name: those of the robot, then those defined in visuals.
 
-    A name stands for its first definition, whatever others say later: so in urdfdom.
+    A name stands for its first definition; later ones are ignored, as in urdfdom.
     """
     paints: dict[str, Paint] = {}
     for node in root.find_all("material"):
@@ -197,7 +197,7 @@ def _inertial(
     if inertial is None:
         return None
     node = body.link.node.find("inertial") or body.link.node
-    return sound_inertial(inertial, collisions, node, reading)
+    return valid_inertial(inertial, collisions, node, reading)
 
 
 def _sdf_children(names: list[str], extensions: Extensions) -> Parameters:

@@ -1,7 +1,7 @@
 """Links and joints of a URDF as a tree, and which links are lumped into which.
 
 A fixed joint holds two links together for good, so libsdformat makes them one body unless
-``<preserveFixedJoint>`` or ``<disableFixedJointLumping>`` says otherwise.
+``<preserveFixedJoint>`` or ``<disableFixedJointLumping>`` is set.
 """
 
 from __future__ import annotations

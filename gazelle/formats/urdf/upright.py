@@ -1,4 +1,4 @@
-"""Rotations as urdfdom turns them into angles, on the way from a URDF to Gazebo."""
+"""Rotations as urdfdom turns them into angles, in the conversion from URDF for Gazebo."""
 
 from __future__ import annotations
 

@@ -39,10 +39,10 @@ def save(
     Args:
         content: What to write; a model alone makes a model file.
         path: The file; an existing one is replaced, once all of the new one is there.
-        format: ``sdf`` or ``urdf``; by default what the file's suffix says.
+        format: ``sdf`` or ``urdf``; by default from the file's suffix.
 
     Raises:
-        FormatError: The format is not known, or cannot say what there is to write; or the
+        FormatError: The format is not known, or cannot express the content; or the
             file cannot be written.
     """
     file = expanded(path).absolute()

@@ -17,7 +17,7 @@ class Writing:
 
     Attributes:
         folder: Folder that the file will stand in, or None.
-        notes: What the format cannot say.
+        notes: Content that the format cannot express.
     """
 
     folder: Path | None = None

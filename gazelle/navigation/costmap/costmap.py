@@ -239,7 +239,7 @@ class Costmap:
 
 
 def roll(cells: Bytes, columns: int, rows: int, default: int) -> None:
-    """Move what is on a grid as its window goes the other way; what comes in is ``default``."""
+    """Move what is on a grid opposite to its window's motion; what comes in is ``default``."""
     high, wide = cells.shape
     kept = cells.copy()
     cells.fill(default)

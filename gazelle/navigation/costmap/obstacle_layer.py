@@ -83,7 +83,7 @@ class ObstacleLayer(Layer):
     Args:
         name: Within the costmap.
         sources: Sensors by name.
-        max_height: Points above are left out, whatever the source says [m].
+        max_height: Points above are left out, whatever the source sets [m].
         footprint_clearing: Whether the robot stands on free ground by definition.
         overwrite: Write all that is known; else only raise costs (``combination_method`` 0, 1).
     """

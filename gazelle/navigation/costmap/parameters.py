@@ -27,7 +27,7 @@ class SensorTopic:
         topic: Of its messages.
         kind: LaserScan, PointCloud or PointCloud2.
         sensor_frame: Of the sensor; empty for that of its messages.
-        inf_is_valid: Whether an infinite range says that all is free up to the sensor's greatest.
+        inf_is_valid: Whether an infinite range means free space up to the sensor's greatest.
         expected_update_rate: Longest time between two messages [s]; 0 for any.
     """
 

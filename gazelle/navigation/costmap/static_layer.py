@@ -70,7 +70,7 @@ class StaticLayer(Layer):
         self._changed = self._extent()
 
     def _interpreted(self, grid: OccupancyMap, *, track_unknown: bool) -> Bytes:
-        """Return the cost of each value, as costmap_2d says."""
+        """Return the cost of each value, as in costmap_2d."""
         values = np.arange(256).astype(np.uint8).view(np.int8).astype(int)
         if self._trinary:
             table = np.where(values >= self._lethal, LETHAL, FREE_SPACE)
@@ -115,7 +115,7 @@ class StaticLayer(Layer):
         self._changed = None
 
     def update_costs(self, costmap: Costmap, window: Window) -> None:
-        """Write what the map says."""
+        """Write the costs of the map."""
         if self._map is None:
             return
         target = costmap.cells[window.slices]

@@ -47,8 +47,8 @@ class ControlModel:
         velocity = state[TWIST]
         error = command - velocity
         # A command against the motion first stops the robot.
-        wanted = np.where(np.abs(error) <= np.abs(command) + _SLACK, command, 0.0)
-        slower = np.abs(wanted) < np.abs(velocity)
+        target = np.where(np.abs(error) <= np.abs(command) + _SLACK, command, 0.0)
+        slower = np.abs(target) < np.abs(velocity)
         limits = np.where(slower, self.deceleration_limits, self.acceleration_limits)
         gains = np.where(slower, self.deceleration_gains, self.acceleration_gains)
         return np.where(self.used, np.clip(gains * error, -limits, limits), 0.0)

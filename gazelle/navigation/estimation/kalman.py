@@ -171,8 +171,8 @@ class KalmanFilter:
             return state
         command = self.estimate.command
         late = abs(stamp - command.stamp) >= self._control.timeout * NANOSECONDS
-        wanted = np.zeros(6) if late else command.velocities
-        caused = self._control.acceleration(state, wanted)
+        commanded = np.zeros(6) if late else command.velocities
+        caused = self._control.acceleration(state, commanded)
         state = state.copy()
         state[ANGULAR] += seconds * caused[3:]
         state[ACCELERATION] = np.where(self._control.used[:3], caused[:3], state[ACCELERATION])

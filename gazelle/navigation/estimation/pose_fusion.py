@@ -172,7 +172,7 @@ def _stamp(entry: tuple[int, Pose]) -> int:
 
 
 def _between(first: Pose, second: Pose, share: float) -> Pose:
-    """Return a pose on the way between two, with the rotation at an even rate."""
+    """Return a pose interpolated between two, with the rotation at an even rate."""
     return Pose.from_quaternion(
         mix(first.position, second.position, share),
         slerp(first.quaternion, second.quaternion, share),

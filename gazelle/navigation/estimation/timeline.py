@@ -60,8 +60,8 @@ class FusionTimeline:
         kalman = self._kalman
         processed = self._process(now)
         silent = not processed and now - kalman.estimate.stamp >= self._timeout
-        wanted = self._predict_to_now or silent
-        if kalman.initialised and wanted and now > kalman.estimate.stamp:
+        due = self._predict_to_now or silent
+        if kalman.initialised and due and now > kalman.estimate.stamp:
             kalman.predict(now)
         self._expire()
 

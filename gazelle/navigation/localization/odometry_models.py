@@ -1,7 +1,7 @@
 """Motion models of particles: four models of odometry noise, as in ``amcl``.
 
 Models: Thrun, Burgard and Fox, "Probabilistic Robotics", 2005, section 5.4; the variants
-``-corrected`` take the variance, not the deviation, of what the text says.
+``-corrected`` take the variance, not the deviation, of the textbook's formula.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ OdometryModel = Literal["diff", "omni", "diff-corrected", "omni-corrected"]
 MODELS: tuple[OdometryModel, ...] = get_args(OdometryModel)
 
 _STANDING = 0.01
-"""A shorter way has no direction of its own [m]."""
+"""A shorter distance has no direction of its own [m]."""
 
 
 def check_model(name: str) -> OdometryModel:
@@ -46,8 +46,8 @@ def move_particles(
 
     Args:
         poses: x, y [m] and heading [rad], shape (n, 3).
-        before: What odometry said last.
-        after: What it says now.
+        before: The last odometry.
+        after: The present odometry.
         model: Of the base.
         alphas: ``odom_alpha1`` to ``odom_alpha5``, shape (5,).
         random: Draws the noise.
@@ -55,7 +55,9 @@ def move_particles(
     if model.startswith("diff"):
         _turn_go_turn(poses, before, after, alphas, random, corrected=model == "diff-corrected")
     else:
-        _go_any_way(poses, before, after, alphas, random, corrected=model == "omni-corrected")
+        _move_in_any_direction(
+            poses, before, after, alphas, random, corrected=model == "omni-corrected"
+        )
 
 
 def _turn_go_turn(
@@ -68,23 +70,23 @@ def _turn_go_turn(
     corrected: bool,
 ) -> None:
     dx, dy = after[0] - before[0], after[1] - before[1]
-    way = math.hypot(dx, dy)
-    first = 0.0 if way < _STANDING else wrapped(math.atan2(dy, dx) - before[2])
+    distance = math.hypot(dx, dy)
+    first = 0.0 if distance < _STANDING else wrapped(math.atan2(dy, dx) - before[2])
     second = wrapped(wrapped(after[2] - before[2]) - first)
     # Going backward is no half turn.
     small_first = min(abs(wrapped(first)), abs(wrapped(first - math.pi)))
     small_second = min(abs(wrapped(second)), abs(wrapped(second - math.pi)))
     a1, a2, a3, a4 = alphas[:4]
     spreads = (
-        a1 * small_first**2 + a2 * way**2,
-        a3 * way**2 + a4 * small_first**2 + a4 * small_second**2,
-        a1 * small_second**2 + a2 * way**2,
+        a1 * small_first**2 + a2 * distance**2,
+        a3 * distance**2 + a4 * small_first**2 + a4 * small_second**2,
+        a1 * small_second**2 + a2 * distance**2,
     )
     # The original takes variances for deviations, but where it is "corrected".
     sigmas = [math.sqrt(each) if corrected else each for each in spreads]
     noise = random.standard_normal((3, len(poses)))
     turn = first - sigmas[0] * noise[0]
-    length = way - sigmas[1] * noise[1]
+    length = distance - sigmas[1] * noise[1]
     turn_again = second - sigmas[2] * noise[2]
     heading = poses[:, 2] + turn
     poses[:, 0] += length * np.cos(heading)
@@ -92,7 +94,7 @@ def _turn_go_turn(
     poses[:, 2] = _wrapped(heading + turn_again)
 
 
-def _go_any_way(
+def _move_in_any_direction(
     poses: Floats,
     before: Pose2,
     after: Pose2,
@@ -102,18 +104,18 @@ def _go_any_way(
     corrected: bool,
 ) -> None:
     dx, dy = after[0] - before[0], after[1] - before[1]
-    way, turn = math.hypot(dx, dy), wrapped(after[2] - before[2])
+    distance, turn = math.hypot(dx, dy), wrapped(after[2] - before[2])
     a1, a2, a3, a4, a5 = alphas[:5]
     spreads = (
-        a3 * way**2 + a1 * turn**2,
-        a4 * turn**2 + a2 * way**2,
-        a1 * turn**2 + a5 * way**2,
+        a3 * distance**2 + a1 * turn**2,
+        a4 * turn**2 + a2 * distance**2,
+        a1 * turn**2 + a5 * distance**2,
     )
     sigmas = [math.sqrt(each) if corrected else each for each in spreads]
     noise = random.standard_normal((3, len(poses)))
     direction = wrapped(math.atan2(dy, dx) - before[2]) + poses[:, 2]
     cos, sin = np.cos(direction), np.sin(direction)
-    along = way + sigmas[0] * noise[0]
+    along = distance + sigmas[0] * noise[0]
     aside = sigmas[2] * noise[2]
     poses[:, 0] += along * cos + aside * sin
     poses[:, 1] += along * sin - aside * cos

@@ -93,7 +93,7 @@ class ScanModel:
         used: Bools = near / len(poses) > s.beam_skip_threshold
         beams = max(s.laser_max_beams, 1)
         if beams - int(used.sum()) >= beams * s.beam_skip_error_threshold:
-            # The poses may all be wrong: then all beams have to say so.
+            # The poses may all be wrong: then all beams must show it.
             used = np.ones(len(points), np.bool_)
         return used
 

@@ -52,11 +52,11 @@ def _drawn(poses: Floats, scores: Floats, count: int, random: np.random.Generato
     logs = np.log(np.maximum(scores, 1e-300))
     logs -= logs.max()
     few, many = 0.0, 64.0
-    wanted = _SHARE * count
+    effective = _SHARE * count
     for _ in range(20):
         power = 0.5 * (few + many)
         weights = np.exp(power * logs)
-        if weights.sum() ** 2 / (weights**2).sum() > wanted:
+        if weights.sum() ** 2 / (weights**2).sum() > effective:
             few = power
         else:
             many = power

@@ -100,7 +100,7 @@ class GridSlam:
         self.weights: Floats = np.full(s.particles, 1.0 / s.particles)
         self.map_to_odom: Pose2 | None = None
         self._odom: Pose2 | None = None
-        self._way = self._turn = 0.0
+        self._distance = self._turn = 0.0
         self._time = -math.inf
 
     @property
@@ -144,12 +144,12 @@ class GridSlam:
         self._move(before, odom)
         self._odom = odom
         step = between(before, odom)
-        self._way += math.hypot(step[0], step[1])
+        self._distance += math.hypot(step[0], step[1])
         self._turn += abs(step[2])
         late = s.temporalUpdate >= 0.0 and time - self._time > s.temporalUpdate
-        if not (first or late or self._way >= s.linearUpdate or self._turn >= s.angularUpdate):
+        if not (first or late or self._distance >= s.linearUpdate or self._turn >= s.angularUpdate):
             return False
-        self._way = self._turn = 0.0
+        self._distance = self._turn = 0.0
         self._time = time
         most = s.maxRange if s.maxRange > 0.0 else range_max
         usable = s.maxUrange if s.maxUrange > 0.0 else most
@@ -197,7 +197,7 @@ class GridSlam:
             found = seen.copy()
             score = self._matcher.match(particle, found, used, s.lstep, s.astep, s.iterations)
             if score <= s.minimumScore:
-                # It stays where odometry says.
+                # It keeps the pose of odometry.
                 found = seen
             logs[particle] = self._matcher.likelihood(particle, found, used)
             x, y, heading = found.tolist()

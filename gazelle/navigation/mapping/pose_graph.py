@@ -43,10 +43,10 @@ def optimized(poses: Floats, edges: list[PoseEdge]) -> Floats:
     poses = poses.copy()
     first = np.array([edge.first for edge in edges])
     second = np.array([edge.second for edge in edges])
-    wanted = np.array([edge.pose for edge in edges])
+    measured = np.array([edge.pose for edge in edges])
     weights = np.array([edge.weights for edge in edges])
     for _ in range(_ROUNDS):
-        step = _step(poses, first, second, wanted, weights)
+        step = _step(poses, first, second, measured, weights)
         poses += step
         if np.abs(step).max() < _STILL:
             break
@@ -54,14 +54,14 @@ def optimized(poses: Floats, edges: list[PoseEdge]) -> Floats:
 
 
 def _step(
-    poses: Floats, first: Indices, second: Indices, wanted: Floats, weights: Floats
+    poses: Floats, first: Indices, second: Indices, measured: Floats, weights: Floats
 ) -> Floats:
     """Compute one step of Gauss and Newton, shape (n, 3)."""
     a, b = poses[first], poses[second]
     cos, sin = np.cos(a[:, 2]), np.sin(a[:, 2])
     dx, dy = b[:, 0] - a[:, 0], b[:, 1] - a[:, 1]
     seen = np.stack((cos * dx + sin * dy, cos * dy - sin * dx, b[:, 2] - a[:, 2]), axis=1)
-    error = seen - wanted
+    error = seen - measured
     error[:, 2] = (error[:, 2] + math.pi) % (2.0 * math.pi) - math.pi
     one = np.ones(len(first))
     zero = 0.0 * one

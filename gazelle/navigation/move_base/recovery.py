@@ -1,4 +1,4 @@
-"""Recovery behaviours for when there is no way on: clear obstacles, or rotate."""
+"""Recovery behaviours for a blocked robot: clear obstacles, or rotate."""
 
 from __future__ import annotations
 

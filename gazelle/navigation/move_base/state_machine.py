@@ -80,7 +80,7 @@ class MoveStep:
     Attributes:
         velocity: To have; None if it is not to be changed.
         outcome: How the goal ended, if it did.
-        text: What to say of that.
+        text: Its message.
         plan: A new global plan, if there is one.
         recovery: Number and name of a recovery behaviour that begins now.
     """
@@ -97,7 +97,7 @@ class MoveBase:
 
     Args:
         settings: Of ``move_base``.
-        planner: Finds ways over the global costmap.
+        planner: Finds paths over the global costmap.
         controller: Follows them over the local one.
         recoveries: What to do when there is none, one after another.
 
@@ -279,7 +279,7 @@ class MoveBase:
         self._recovery_index += 1
         self.phase = Phase.PLANNING
         # A robot that turned is not stopped: from a stand, a base with a least turning rate of more
-        # than it can reach within a cycle has no way to turn on the spot.
+        # than it can reach within a cycle cannot turn on the spot.
         return MoveStep(recovery=begun)
 
     def _end(self, outcome: GoalOutcome, text: str) -> MoveStep:

@@ -1,4 +1,4 @@
-"""Planners: ways over a costmap, and velocities that follow them.
+"""Planners: paths over a costmap, and velocities that follow them.
 
 Names of types, parameters and rules are those of ROS's ``move_base``.
 """

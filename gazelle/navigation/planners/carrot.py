@@ -13,11 +13,11 @@ from gazelle.navigation.planners.plugins import GlobalPlannerPlugin
 from gazelle.navigation.planners.rollout import TrajectoryRollout
 
 _STEP = 0.01
-"""Share of the way by which the end moves back at a time."""
+"""Share of the path by which the end moves back at a time."""
 
 
 class CarrotPlanner(GlobalPlannerPlugin):
-    """A straight way that ends where the robot can stand, at or before the goal.
+    """A straight path that ends where the robot can stand, at or before the goal.
 
     Parameters: ``min_dist_from_robot`` 0.1 m is read and, as in the original, not used.
     """

@@ -97,7 +97,7 @@ class DwaPlanner(PlanFollower):
                 pose,
                 velocity,
                 goal,
-                lambda wanted: self._fits(rollout, pose, velocity, wanted),
+                lambda command: self._fits(rollout, pose, velocity, command),
                 lambda angle: rollout.can_turn(pose, angle, self.settings.angular_sim_granularity),
             )
         rollout = self._rollout(pose, plan, goal)
@@ -172,10 +172,10 @@ class DwaPlanner(PlanFollower):
         )
 
     def _fits(
-        self, rollout: TrajectoryRollout, pose: Pose2, velocity: Velocity, wanted: Floats
+        self, rollout: TrajectoryRollout, pose: Pose2, velocity: Velocity, command: Floats
     ) -> bool:
         """Return whether a command hits nothing; negligible motion is allowed, as in the original."""
-        cost = self._score(rollout, pose, velocity, wanted)[0]
+        cost = self._score(rollout, pose, velocity, command)[0]
         return bool(cost >= 0.0 or cost == NO_MOTION)
 
     def _turns_from_rest(self, velocity: Velocity) -> Floats:

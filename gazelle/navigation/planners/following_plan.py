@@ -81,7 +81,7 @@ class PlanFollower(LocalPlannerPlugin):
 
 
 def _dense(points: Floats, spacing: float) -> Floats:
-    """Return the same way with points no farther apart than this."""
+    """Return the same path with points no farther apart than this."""
     if len(points) < 2:
         return points
     lengths = np.hypot(*np.diff(points, axis=0).T)

@@ -19,7 +19,7 @@ _SIDES = {4: math.pi, 5: math.pi / 2.0, 6: -math.pi / 2.0}
 
 
 class GlobalPlanner(PotentialPlanner):
-    """The cheapest way, as ``global_planner`` of ROS finds it.
+    """The cheapest path, as ``global_planner`` of ROS finds it.
 
     Parameters: ``allow_unknown``, ``default_tolerance``, ``lethal_cost`` 253, ``neutral_cost`` 50,
     ``cost_factor`` 3, ``use_quadratic``, ``use_grid_path``, ``orientation_mode`` (0 none, 1 forward, 2

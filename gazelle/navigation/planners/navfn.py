@@ -1,4 +1,4 @@
-"""``navfn/NavfnROS``: the cheapest way over a costmap."""
+"""``navfn/NavfnROS``: the cheapest path over a costmap."""
 
 from __future__ import annotations
 
@@ -46,14 +46,14 @@ class PotentialPlanner(GlobalPlannerPlugin):
         return table.astype(np.float32)
 
     def make_plan(self, start: Pose2, goal: Pose2, tolerance: float | None = None) -> Floats:
-        """Return the cheapest way; see `GlobalPlannerPlugin`."""
+        """Return the cheapest path; see `GlobalPlannerPlugin`."""
         first = self.costmap.cell_of(start[0], start[1])
         last = self.costmap.cell_of(goal[0], goal[1])
         if first is None or last is None:
             return NO_PLAN
         table = self.prices()
         prices = table.take(self.costmap.cells)
-        # The robot stands where it stands, whatever the map says.
+        # The cell of the robot is free, whatever the map has there.
         prices[first[1], first[0]] = table[0]
         field = self._prepared()
         reach = self.tolerance if tolerance is None else tolerance
@@ -87,7 +87,7 @@ class PotentialPlanner(GlobalPlannerPlugin):
     def _posed(self, cells: Floats, start: Pose2, goal: Pose2, *, exact: bool) -> Floats:
         """Return poses along a path of cells.
 
-        Each but the last one looks ahead as ``oriented`` says.
+        Each but the last one looks ahead by ``oriented``.
         """
         corner = np.array(self.costmap.origin)
         plan = np.zeros((len(cells), 3))

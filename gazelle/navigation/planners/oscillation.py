@@ -13,7 +13,7 @@ _AXES = 3
 
 
 class OscillationGuard:
-    """Once a robot has gone to and fro along x or y, or in turning, only the last way is left to it.
+    """Once a robot has gone to and fro along x or y, or in turning, only the last direction is allowed.
 
     Until it has moved on. The rule is that of ``base_local_planner``.
 

@@ -26,7 +26,7 @@ STOP: Velocity = (0.0, 0.0, 0.0)
 
 
 class GlobalPlannerPlugin(ABC):
-    """Finds ways over a costmap.
+    """Finds paths over a costmap.
 
     Args:
         name: Of the planner: the last part of its type.
@@ -39,7 +39,7 @@ class GlobalPlannerPlugin(ABC):
 
     @abstractmethod
     def make_plan(self, start: Pose2, goal: Pose2, tolerance: float | None = None) -> Floats:
-        """Return a way in the frame of the costmap.
+        """Return a path in the frame of the costmap.
 
         Args:
             start: x, y [m] and heading [rad].

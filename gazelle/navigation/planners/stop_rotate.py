@@ -102,28 +102,28 @@ class StopRotate:
     ) -> Velocity | None:
         """Stop, or turn; None if there is no room for it.
 
-        It turns the shorter way round, as the original, unless only the longer one is free. What the
+        It turns in the shorter direction, as the original, unless only the longer one is free. What the
         original requires of a turn, room to continue for ``sim_time``, is only checked where neither is.
 
         Args:
             pose: Of the robot.
             velocity: That it has.
             goal: In the same frame.
-            fits: Says whether a command hits nothing.
-            can_turn: Says whether turning on the spot by an angle hits nothing.
+            fits: Predicate of commands that hit nothing.
+            can_turn: Predicate of angles of turns on the spot that hit nothing.
         """
         left = wrapped(goal[2] - pose[2])
         if abs(left) <= self.limits.yaw_goal_tolerance:
             self._turning = False
             return STOP
         if not self._turning and not self._stands(velocity):
-            wanted = self._braked(velocity)
-            return wanted if fits(np.array([wanted])) else None
+            command = self._braked(velocity)
+            return command if fits(np.array([command])) else None
         self._turning = True
         around = left - math.copysign(2.0 * math.pi, left)
         free = next((angle for angle in (left, around) if can_turn(angle)), None)
-        wanted = 0.0, 0.0, self._turn(left if free is None else free, velocity[2])
-        return wanted if free is not None or fits(np.array([wanted])) else None
+        command = 0.0, 0.0, self._turn(left if free is None else free, velocity[2])
+        return command if free is not None or fits(np.array([command])) else None
 
     def _stands(self, velocity: Velocity) -> bool:
         slow = math.hypot(velocity[0], velocity[1]) <= self.limits.trans_stopped_vel

@@ -60,7 +60,7 @@ class TrajectorySettings:
 
 
 class TrajectoryPlanner(PlanFollower):
-    """Samples ways ahead, turns on the spot, and at last a way back, in this order.
+    """Samples paths ahead, turns on the spot, and at last a way back, in this order.
 
     Parameters and scores are those of the original; not done is what it does for strafing
     (``holonomic_robot``, ``y_vels``) and ``heading_scoring``.
@@ -106,7 +106,7 @@ class TrajectoryPlanner(PlanFollower):
                 pose,
                 velocity,
                 goal,
-                lambda wanted: bool(self._score(rollout, pose, velocity, wanted)[0] >= 0.0),
+                lambda command: bool(self._score(rollout, pose, velocity, command)[0] >= 0.0),
                 lambda angle: rollout.can_turn(pose, angle, self.settings.angular_sim_granularity),
             )
         chosen = self._best(rollout, to_goal, pose, velocity)
@@ -163,7 +163,7 @@ class TrajectoryPlanner(PlanFollower):
         ahead = np.stack(np.meshgrid(speeds, [0.0], turns, indexing="ij"), -1).reshape(-1, 3)
         costs = self._score(rollout, pose, velocity, ahead)
         best = _cheapest(ahead, costs)
-        # A turn on the spot is as good as a way ahead that costs as much.
+        # A turn on the spot is as good as a path ahead that costs as much.
         most = math.inf if best is None else float(costs[costs >= 0.0].min())
         turn = self._on_the_spot(rollout, to_goal, pose, velocity, turns, most)
         if turn is not None:
@@ -188,7 +188,7 @@ class TrajectoryPlanner(PlanFollower):
         least = s.min_in_place_vel_theta
         rates = np.where(turns > 0.0, np.maximum(turns, least), np.minimum(turns, -least))
         if self._turned:
-            # It turns on the way it began, or it would turn to and fro.
+            # It keeps its direction of turning, or it would turn to and fro.
             rates = rates[np.sign(rates) == self._turned]
         if not len(rates):
             return None

@@ -108,7 +108,7 @@ def launch_Gazebo(  # noqa: N802  # frobs_rl's names, here and below
         gui: Whether it has a window; Gazelle has none.
         recording: Whether it writes a log; Gazelle writes none.
         debug: Whether it runs under a debugger.
-        verbose: Whether it says more.
+        verbose: Whether to log more.
         output: ``screen`` or ``log``.
         custom_world_path: A file with a world.
         custom_world_pkg: A package that has one, in its folder ``worlds``.

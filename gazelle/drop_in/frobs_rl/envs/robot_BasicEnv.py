@@ -1,4 +1,4 @@
-"""An environment of Gymnasium whose robot is on a ROS 1 graph."""
+"""A Gymnasium environment with a robot on a ROS 1 graph."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ _BY_TIME, _BY_STEPS = 1, 2
 
 
 class RobotBasicEnv(gymnasium.Env[Any, Any]):
-    """Starts the simulator and the robot if asked to, and says what happens in a step and in a reset.
+    """Starts the simulator and the robot on request; defines step and reset.
 
-    Subclasses say what to do in the methods that raise `NotImplementedError` here.
+    Subclasses override the methods that raise `NotImplementedError` here.
 
     Args:
         launch_gazebo: Start the simulator.
@@ -145,7 +145,7 @@ class RobotBasicEnv(gymnasium.Env[Any, Any]):
                 ),
             )
         if reset_controllers:
-            self._start_controllers_anew()
+            self._restart_controllers()
 
     # -- Gymnasium's interface -----------------------------------------------------------------
 
@@ -191,18 +191,18 @@ class RobotBasicEnv(gymnasium.Env[Any, Any]):
         else:
             ros_gazebo.gazebo_reset_sim()
         if self.reset_controllers:
-            self._start_controllers_anew()
+            self._restart_controllers()
         ros_gazebo.gazebo_unpause_physics()
         self._check_subs_and_pubs_connection()
         self._set_episode_init_params()
         ros_gazebo.gazebo_pause_physics()
 
-    def _start_controllers_anew(self) -> None:
+    def _restart_controllers(self) -> None:
         ros_gazebo.gazebo_unpause_physics()
         ros_controllers.reset_controllers_srv(list(self.controllers_list or ()), ns=self.namespace)
         ros_gazebo.gazebo_pause_physics()
 
-    # -- what subclasses say -------------------------------------------------------------------
+    # -- overridden by subclasses -------------------------------------------------------------------
 
     def _send_action(self, action: Any) -> Any:
         """Send an action."""

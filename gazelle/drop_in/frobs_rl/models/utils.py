@@ -1,4 +1,4 @@
-"""Policies and noise as parameters say."""
+"""Policies and noise from parameters."""
 
 from __future__ import annotations
 
@@ -26,15 +26,17 @@ def get_policy_kwargs(ns: str = "/") -> dict[str, Any] | None:
     """
     if not rospy.get_param(parameter(ns, "model_params/use_custom_policy"), False):
         return None
-    wanted: Mapping[str, Any] = rospy.get_param(parameter(ns, "model_params/policy_params"))
-    activation = _chosen("activation_fn", str(wanted["activation_fn"]).lower(), _ACTIVATIONS)
-    extractor = _chosen("features_extractor_class", wanted["features_extractor_class"], _EXTRACTORS)
-    optimizer = _chosen("optimizer_class", wanted["optimizer_class"], _OPTIMIZERS)
+    settings: Mapping[str, Any] = rospy.get_param(parameter(ns, "model_params/policy_params"))
+    activation = _chosen("activation_fn", str(settings["activation_fn"]).lower(), _ACTIVATIONS)
+    extractor = _chosen(
+        "features_extractor_class", settings["features_extractor_class"], _EXTRACTORS
+    )
+    optimizer = _chosen("optimizer_class", settings["optimizer_class"], _OPTIMIZERS)
     return {
         "activation_fn": getattr(torch("nn"), _ACTIVATIONS[activation]),
         "features_extractor_class": getattr(stable_baselines3("common.torch_layers"), extractor),
         "optimizer_class": getattr(torch("optim"), optimizer),
-        "net_arch": list(wanted["net_arch"]),
+        "net_arch": list(settings["net_arch"]),
     }
 
 
@@ -42,10 +44,10 @@ def get_action_noise(action_space_shape: int | tuple[int, ...], ns: str = "/") -
     """Return Gaussian noise for actions of a shape; None unless ``use_action_noise`` is set."""
     if not rospy.get_param(parameter(ns, "model_params/use_action_noise"), False):
         return None
-    wanted: Mapping[str, float] = rospy.get_param(parameter(ns, "model_params/action_noise"))
+    settings: Mapping[str, float] = rospy.get_param(parameter(ns, "model_params/action_noise"))
     one = np.ones(action_space_shape)
     return stable_baselines3("common.noise").NormalActionNoise(
-        mean=wanted["mean"] * one, sigma=wanted["sigma"] * one
+        mean=settings["mean"] * one, sigma=settings["sigma"] * one
     )
 
 

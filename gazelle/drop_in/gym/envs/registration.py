@@ -31,7 +31,7 @@ class EnvSpec:
         nondeterministic: Whether equal seeds may give different episodes.
         max_episode_steps: After which an episode is cut; None for never.
         kwargs: Given to the class.
-        tags: Whatever the user wants to note.
+        tags: Notes of the user.
     """
 
     id: str

@@ -14,7 +14,7 @@ def check_env(env: Any, warn: bool = True, skip_render_check: bool = True) -> No
     """Check spaces, the first observation and one step.
 
     Raises:
-        Error: One of them is not as gym wants it.
+        Error: One of them breaks gym's interface.
     """
     del warn, skip_render_check
     for name in ("observation_space", "action_space"):

@@ -84,7 +84,7 @@ class TopicRobotEnv(RobotGazeboEnv):
             self.set_physics,
             self.reset_kind,
         )
-        self._heard: dict[str, int] = {}
+        self._received: dict[str, int] = {}
         self._subscribers = [self._listen(each) for each in self.sensors]
         self._open_publishers()
         self.gazebo.unpauseSim()
@@ -96,11 +96,11 @@ class TopicRobotEnv(RobotGazeboEnv):
 
     def _listen(self, sensor: RobotTopic) -> rospy.Subscriber:
         setattr(self, sensor.attribute, None)
-        self._heard[sensor.attribute] = 0
+        self._received[sensor.attribute] = 0
 
         def take(message: Message) -> None:
             setattr(self, sensor.attribute, message)
-            self._heard[sensor.attribute] += 1
+            self._received[sensor.attribute] += 1
 
         return rospy.Subscriber(sensor.topic, load_message(sensor.kind), take, queue_size=10)
 
@@ -112,10 +112,10 @@ class TopicRobotEnv(RobotGazeboEnv):
 
     def _check_all_sensors_ready(self) -> None:
         """Wait until all sensors have published since now; time must advance."""
-        before = dict(self._heard)
+        before = dict(self._received)
         deadline = time.monotonic() + PATIENCE_S
         for sensor in self.sensors:
-            while self._heard[sensor.attribute] == before[sensor.attribute]:
+            while self._received[sensor.attribute] == before[sensor.attribute]:
                 if time.monotonic() > deadline:
                     raise self._silent(sensor)
                 self._look_again()
@@ -127,10 +127,10 @@ class TopicRobotEnv(RobotGazeboEnv):
             TaskError: There is none within a minute.
         """
         (sensor,) = (each for each in self.sensors if each.attribute == attribute)
-        if not hasattr(self, "_heard"):  # tasks ask before the robot's constructor
+        if not hasattr(self, "_received"):  # tasks may check before the robot's constructor
             return self._first(sensor)
-        before, deadline = self._heard[attribute], time.monotonic() + PATIENCE_S
-        while self._heard[attribute] == before:
+        before, deadline = self._received[attribute], time.monotonic() + PATIENCE_S
+        while self._received[attribute] == before:
             if time.monotonic() > deadline:
                 raise self._silent(sensor)
             self._look_again()

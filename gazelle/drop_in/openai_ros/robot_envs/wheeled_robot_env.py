@@ -57,9 +57,9 @@ class WheeledRobotEnv(TopicRobotEnv):
             epsilon: How near is near enough [m/s].
             update_rate: How often to look [Hz of simulated time].
         """
-        wanted = cmd_vel_value.linear.x
+        target = cmd_vel_value.linear.x
         for _ in range(math.ceil(10.0 * update_rate)):
             odom = self._check_sensor_ready("odom")
-            if abs(odom.twist.twist.linear.x - wanted) <= epsilon:
+            if abs(odom.twist.twist.linear.x - target) <= epsilon:
                 return
             self.simulated_time.wait(1.0 / update_rate)

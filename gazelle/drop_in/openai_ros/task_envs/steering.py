@@ -59,7 +59,7 @@ class SteeringTask(DesiredPoint, WheeledRobotEnv):
         self.last_action = FORWARDS
         self._episode_done = False
 
-    def _read_way_rewards(self) -> None:
+    def _read_motion_rewards(self) -> None:
         """Read the rewards of a step forward and a turn."""
         self.forwards_reward = self.number("forwards_reward")
         self.turn_reward = self.number("turn_reward")
@@ -83,7 +83,7 @@ class SteeringTask(DesiredPoint, WheeledRobotEnv):
         forward, turn = self.forwards_reward, self.turn_reward
         return ((forward, forward), (turn, turn))
 
-    def _way(self, observations: Any) -> tuple[Floats, Floats | None]:
+    def _place_and_goal(self, observations: Any) -> tuple[Floats, Floats | None]:
         """Return where the robot is as observed, shape (1, 2), and its goal, shape (3,) [m]."""
         if self.place_at is None:
             return np.zeros((1, 2)), None
@@ -92,13 +92,13 @@ class SteeringTask(DesiredPoint, WheeledRobotEnv):
     def _is_done(self, observations: Any) -> bool:
         if self._episode_done:
             rospy.logwarn("the robot is too near to something")
-        place, goal = self._way(observations)
+        place, goal = self._place_and_goal(observations)
         ends = ends_of(self._rules(goal), one(self._episode_done), place)
         self._episode_done = bool(ends.over[0])
         return self._episode_done
 
     def _compute_reward(self, observations: Any, done: bool) -> float:  # noqa: FBT001  # openai_ros' interface
-        place, goal = self._way(observations)
+        place, goal = self._place_and_goal(observations)
         rules, closer = self._rules(goal), one(False)
         if goal is not None:
             closer = self._comes_nearer(float(distance_to(place, goal)[0]))

@@ -20,7 +20,7 @@ _WORLD_JOINTS = (1, 10)
 
 
 def write_sdf(content: World | Model, writing: Writing) -> Parameters:
-    """Write the root element, of the oldest version since 1.7 that can say it all.
+    """Write the root element, of the oldest version since 1.7 that can express all of it.
 
     Older programs read older versions only, so the oldest sufficient one is written.
     """

@@ -14,8 +14,8 @@ from gazelle.description import (
 )
 from gazelle.errors import FormatError
 from gazelle.formats import values
+from gazelle.formats.inertia_repair import check_inertia
 from gazelle.formats.materials import STANDARD, URDF_COLOR, brightened, script_colors
-from gazelle.formats.sound import check_inertia
 from gazelle.formats.write.element import (
     element,
     group,

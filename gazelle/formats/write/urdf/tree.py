@@ -1,4 +1,4 @@
-"""A model's links and joints as the tree that URDF wants, and where its frames are.
+"""A model's links and joints as the tree that URDF requires, and where its frames are.
 
 URDF has a link's frame at its joint, and the root's at the robot's; SDF has it anywhere.
 """

@@ -81,9 +81,9 @@ class HusarionGetToPosTurtleBotPlayGroundEnv(SteeringTask, HusarionEnv):
         step = (self.alive_reward, self.closer_to_point_reward)
         return (step, step)
 
-    def _way(self, observations: Any) -> tuple[Floats, Floats | None]:
+    def _place_and_goal(self, observations: Any) -> tuple[Floats, Floats | None]:
         # The goal counts as it is observed.
-        return super()._way(observations)[0], np.array([*observations[-2:], 0.0])
+        return super()._place_and_goal(observations)[0], np.array([*observations[-2:], 0.0])
 
     def _drive(self, linear: float, angular: float) -> None:
         self.move_base(linear, angular, epsilon=self.move_base_precision, update_rate=10)

@@ -22,7 +22,7 @@ register_task("MovingCubeOneDiskWalk-v0")
 class MovingCubeOneDiskWalkEnv(GraphTask, CubeSingleDiskEnv):
     """Move along y; parameters under ``/moving_cube``.
 
-    Observation: speed of the wheel [rad/s] without decimals; way along y [m], roll, pitch [rad], velocity
+    Observation: speed of the wheel [rad/s] without decimals; distance along y [m], roll, pitch [rad], velocity
     along y [m/s] and yaw [rad] with one. Actions: the wheel to ``roll_speed_fixed_value``, to the
     opposite, to a stop, and by ``roll_speed_increment_value`` faster or slower (``n_actions`` of them).
     Reward: 100 for a metre along y, 100 for a metre a second, up to -100 for yaw, each without decimals;

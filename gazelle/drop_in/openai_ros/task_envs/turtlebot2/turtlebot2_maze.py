@@ -33,7 +33,7 @@ class TurtleBot2MazeEnv(SteeringTask, TurtleBot2Env):
         )
         super().__init__(workspace)
         self._read_steering()
-        self._read_way_rewards()
+        self._read_motion_rewards()
         self.dec_obs = int(rospy.get_param("/turtlebot2/number_decimals_precision_obs", 1))
         self.n_observations = int(self.parameter("n_observations"))
         self.new_ranges = math.ceil(len(self.laser_scan.ranges) / self.n_observations)

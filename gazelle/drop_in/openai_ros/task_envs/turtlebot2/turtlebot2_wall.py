@@ -34,7 +34,7 @@ class TurtleBot2WallEnv(SteeringTask, TurtleBot2Env):
         )
         super().__init__(workspace)
         self._read_steering()
-        self._read_way_rewards()
+        self._read_motion_rewards()
         self.new_ranges = int(self.parameter("new_ranges"))
         scan = self.discretize_observation(self.laser_scan, self.new_ranges)
         self.observation_space = self._space(scan, _X, _Y)  # openai_ros declares the scan's part

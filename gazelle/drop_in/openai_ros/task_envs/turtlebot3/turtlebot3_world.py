@@ -28,7 +28,7 @@ class TurtleBot3WorldEnv(JoltTask, TurtleBot3Env):
         workspace = self._begin("turtlebot3/turtlebot3_world", "turtlebot3_gazebo")
         super().__init__(workspace)
         self._read_steering()
-        self._read_way_rewards()
+        self._read_motion_rewards()
         self.new_ranges = int(self.parameter("new_ranges"))
         self.observation_space = self._space(self._get_obs())
 

@@ -42,25 +42,25 @@ LEAST_MASS = 1e-3
 """For a mass that is not positive [kg]."""
 
 
-def sound_inertial(
+def valid_inertial(
     inertial: Inertial, collisions: Iterable[Collision], node: Parameters, reading: Reading
 ) -> Inertial:
-    """Return the inertial, or a valid one, with a fault that says which.
+    """Return the inertial, or a valid one, with a fault that names the repair.
 
     An inertia that breaks only the triangle inequality stays, with a note: it can be inverted, and
     ODE takes it as it is.
 
     Args:
-        inertial: As the file says, in the link's frame.
+        inertial: As in the file, in the link's frame.
         collisions: Of the link.
         node: Its element, for the fault.
         reading: Takes the fault.
     """
     mass = inertial.mass
     if not 0.0 < mass <= HEAVIEST:
-        wanted = "greater than zero" if not mass > 0.0 else f"{HEAVIEST:g} kg at most"
+        expected = "greater than zero" if not mass > 0.0 else f"{HEAVIEST:g} kg at most"
         reading.fault(
-            f"the mass must be {wanted}, found {mass:g}: {LEAST_MASS:g} kg was taken",
+            f"the mass must be {expected}, found {mass:g}: {LEAST_MASS:g} kg was taken",
             node.find("mass") or node,
         )
         mass = LEAST_MASS
@@ -69,7 +69,7 @@ def sound_inertial(
     if _is_positive(given):
         _note_triangle(given, node, reading)
         return inertial
-    tensor = _sound_tensor(given.matrix(), mass, collisions)
+    tensor = _valid_tensor(given.matrix(), mass, collisions)
     taken = Inertia.from_matrix(tensor)
     reading.fault(
         f"{_WRONG} ({_numbers(given)}): {_numbers(taken)} was taken",
@@ -93,7 +93,7 @@ def _note_triangle(inertia: Inertia, node: Parameters, reading: Reading) -> None
         )
 
 
-def is_sound(inertial: Inertial) -> bool:
+def is_valid(inertial: Inertial) -> bool:
     """Return whether the mass is positive and the inertia positive definite."""
     return 0.0 < inertial.mass <= HEAVIEST and _is_positive(inertial.inertia)
 
@@ -121,7 +121,7 @@ def _is_positive(i: Inertia) -> bool:
     return min(i.ixx, i.iyy, i.izz) > 0.0 and minor > 0.0 and whole > 0.0
 
 
-def _sound_tensor(tensor: Floats, mass: float, collisions: Iterable[Collision]) -> Floats:
+def _valid_tensor(tensor: Floats, mass: float, collisions: Iterable[Collision]) -> Floats:
     if not (np.abs(tensor) <= HEAVIEST).all():
         tensor = np.zeros((3, 3))
     if not tensor.any():
@@ -131,8 +131,8 @@ def _sound_tensor(tensor: Floats, mass: float, collisions: Iterable[Collision]) 
     moments, axes = np.linalg.eigh(tensor)
     second = moments.sum() / 2.0 - moments
     second = np.maximum(second, max(_ball_of_water(mass) / 2.0, _ROUNDING * np.abs(second).max()))
-    sound: Floats = (axes * (second.sum() - second)) @ axes.T
-    return (sound + sound.T) / 2.0
+    repaired: Floats = (axes * (second.sum() - second)) @ axes.T
+    return (repaired + repaired.T) / 2.0
 
 
 def _of_shapes(mass: float, collisions: Iterable[Collision]) -> Floats | None:
