@@ -58,19 +58,19 @@ class KinematicsServices:
         request: moveit_msgs.srv.GetPositionIKRequest,
         response: moveit_msgs.srv.GetPositionIKResponse,
     ) -> None:
-        asked, context = request.ik_request, self._context
-        group = context.group(asked.group_name)
-        state = context.state(asked.robot_state)
-        constraints = context.constraints(asked.constraints, state)
-        targets = _targets(asked)
-        scene = context.scene_in(asked.robot_state, state)
+        query, context = request.ik_request, self._context
+        group = context.group(query.group_name)
+        state = context.state(query.robot_state)
+        constraints = context.constraints(query.constraints, state)
+        targets = _targets(query)
+        scene = context.scene_in(query.robot_state, state)
         validity = StateValidity(
-            scene, group, state, constraints, collisions=asked.avoid_collisions
+            scene, group, state, constraints, collisions=query.avoid_collisions
         )
         if len(targets) > 1:
             found = self._together(validity, state, targets)
         else:
-            found = self._alone(validity, state, *targets[0], timeout=asked.timeout.to_sec())
+            found = self._alone(validity, state, *targets[0], timeout=query.timeout.to_sec())
         state[group.columns] = found
         response.solution = state_message(context.robot, context.robot.complete(state))
 
@@ -210,21 +210,21 @@ def _kind(name: str, scene: PlanningScene) -> int:
 
 
 def _targets(
-    asked: moveit_msgs.msg.PositionIKRequest,
+    query: moveit_msgs.msg.PositionIKRequest,
 ) -> list[tuple[str | None, geometry_msgs.msg.PoseStamped]]:
     """Return the links and poses of a request.
 
     Raises:
         NoPlanError: There are more of the ones than of the others.
     """
-    if not asked.pose_stamped_vector:
-        return [(asked.ik_link_name or None, asked.pose_stamped)]
-    names = asked.ik_link_names or [asked.ik_link_name]
-    if len(names) != len(asked.pose_stamped_vector):
+    if not query.pose_stamped_vector:
+        return [(query.ik_link_name or None, query.pose_stamped)]
+    names = query.ik_link_names or [query.ik_link_name]
+    if len(names) != len(query.pose_stamped_vector):
         raise NoPlanError(
-            f"{len(names)} links have {len(asked.pose_stamped_vector)} poses",
+            f"{len(names)} links have {len(query.pose_stamped_vector)} poses",
             PlanOutcome.INVALID_LINK_NAME,
         )
     return [
-        (name or None, pose) for name, pose in zip(names, asked.pose_stamped_vector, strict=True)
+        (name or None, pose) for name, pose in zip(names, query.pose_stamped_vector, strict=True)
     ]

@@ -232,6 +232,6 @@ class PlanningServices:
         response.fraction = path.fraction
 
 
-def _factor(asked: float) -> float:
+def _factor(requested: float) -> float:
     """Return a scaling factor; 1 if it is not within (0, 1], as in MoveIt."""
-    return float(asked) if 0.0 < asked <= 1.0 else 1.0
+    return float(requested) if 0.0 < requested <= 1.0 else 1.0

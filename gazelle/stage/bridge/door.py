@@ -63,32 +63,32 @@ class StageDoor(Closeable):
         self._make_time()
         node.on_new_master.append(self._make_time)
         self._reports = report_on_rosout(node)
-        asked = read_parameters(node)
-        self._monotonic, self._offset_ns = asked.monotonic_clock, 0
+        settings = read_parameters(node)
+        self._monotonic, self._offset_ns = settings.monotonic_clock, 0
         self.naming = Naming(
             [robot.name for robot in stage.robots],
             model_names=model_names,
-            slashed_frames=asked.slashed_frames,
+            slashed_frames=settings.slashed_frames,
         )
-        self._schedule = Schedule(asked.publish_rate)
-        self._watchdog = Watchdog(stage, asked.base_watchdog_timeout, world)
+        self._schedule = Schedule(settings.publish_rate)
+        self._watchdog = Watchdog(stage, settings.base_watchdog_timeout, world)
         self._clock = node.advertise("/clock", rosgraph_msgs.msg.Clock, 10, on_connect=self._greet)
         self._tf = node.advertise("/tf", tf2_msgs.msg.TFMessage, 100)
         messages = Messages()
         robots = [GraphRobot(stage, robot, node, self.naming, world) for robot in stage.robots]
-        metres = asked.is_depth_canonical
+        metres = settings.is_depth_canonical
         self._topics = [RobotTopics(robot, messages, metres=metres) for robot in robots]
         self._inputs = [
             RobotInputs(
                 robot,
-                flat_poses=asked.flat_poses,
+                flat_poses=settings.flat_poses,
                 commanded=self._watchdog.note_command,
                 placed=self._show,
             )
             for robot in robots
         ]
         self._services = Services(simulation, node, self, world)
-        self._poses = PoseServices(stage, node, self.naming, world, asked.pose_service)
+        self._poses = PoseServices(stage, node, self.naming, world, settings.pose_service)
         self._unsubscribe = simulation.subscribe(self._after_step)
         node.on_shutdown.append(lambda _reason: self.stop())
 
