@@ -69,7 +69,7 @@ def _use(name: str, call: Any, positional: list[Any], named: dict[str, Any]) -> 
 HOOKS = {
     "achieved",
     "act",
-    "asked_to_end",
+    "shutdown_requested",
     "compute_reward",
     "draw_goals",
     "join",

@@ -220,9 +220,9 @@ class Binding:
         service_class = load_service(codec.service)
 
         def answer(request: Any) -> Any:
-            asked = codec.read(request)
+            call = codec.read(request)
             with self._simulation.lock:
-                given = service.call(asked, self._worlds)
+                given = service.call(call, self._worlds)
             return service_class._response_class(**codec.answer(given))
 
         if self._is_free(service.topic):

@@ -22,11 +22,11 @@ def name_of(kind: Any) -> str | None:
 
 def service_name_of(request: Any, response: Any) -> str | None:
     """Return the ROS type of a service's two classes; None for other kinds."""
-    asked, answered = name_of(request), name_of(response)
-    if asked is None or answered is None:
+    request_name, response_name = name_of(request), name_of(response)
+    if request_name is None or response_name is None:
         return None
-    name = asked.removesuffix("Request")
-    return name if answered.removesuffix("Response") == name else None
+    name = request_name.removesuffix("Request")
+    return name if response_name.removesuffix("Response") == name else None
 
 
 def fill(message: Message, value: Any, view: Any) -> None:

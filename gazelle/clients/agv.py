@@ -194,10 +194,10 @@ class AGVFleet(Closeable):
         with self._ended:
             command = self.motions.update(np.nan_to_num(poses), now)
             moving = self.motions.active
-            told = np.flatnonzero(moving | ~self._standing)
+            commanded = np.flatnonzero(moving | ~self._standing)
             self._standing[:] = ~moving
-            rows = command[told].tolist()
-        for robot, (linear, angular) in zip(told.tolist(), rows, strict=True):
+            rows = command[commanded].tolist()
+        for robot, (linear, angular) in zip(commanded.tolist(), rows, strict=True):
             self._publishers[robot].publish(twist_message((linear, 0.0, 0.0), (0.0, 0.0, angular)))
         with self._ended:
             self._ended.notify_all()

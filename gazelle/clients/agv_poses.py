@@ -108,10 +108,10 @@ class ServicePoses(PoseSource):
             node.client(f"{space}/{name}", service, persistent=True) for space in spaces
         ]
         self._stop = threading.Event()
-        self._thread = threading.Thread(target=self._ask, name="agv-poses", daemon=True)
+        self._thread = threading.Thread(target=self._poll, name="agv-poses", daemon=True)
         self._thread.start()
 
-    def _ask(self) -> None:
+    def _poll(self) -> None:
         while not self._stop.is_set():
             try:
                 answers = [client.call(self._request, timeout=10.0) for client in self._clients]

@@ -91,7 +91,7 @@ class Controllers(Closeable):
             ClientError: One cannot be loaded; those before it are.
         """
         for name in _several(names):
-            ok, again = self._ask("load_controller", "LoadController", name=name)
+            ok, again = self._call("load_controller", "LoadController", name=name)
             # An answer that got lost: it may be there since.
             if not ok and not (again and name in self.states()):
                 raise self._refused("load_controller", name, self._why_not_loaded(name))
@@ -103,7 +103,7 @@ class Controllers(Closeable):
             ClientError: One cannot be unloaded; those before it are.
         """
         for name in _several(names):
-            ok, again = self._ask("unload_controller", "UnloadController", name=name)
+            ok, again = self._call("unload_controller", "UnloadController", name=name)
             states = {} if ok else self.states()
             if not ok and not (again and name not in states):
                 raise self._refused("unload_controller", name, why_not_unloaded(name, states))
@@ -130,7 +130,7 @@ class Controllers(Closeable):
             ClientError: The manager refuses.
         """
         starting, stopping = _several(start), _several(stop)
-        ok, _ = self._ask(
+        ok, _ = self._call(
             "switch_controller",
             "SwitchController",
             start_controllers=starting,
@@ -214,7 +214,7 @@ class Controllers(Closeable):
             ClientError: Controllers are loaded.
         """
         name = "reload_controller_libraries"
-        if not self._ask(name, "ReloadControllerLibraries", force_kill=force_kill)[0]:
+        if not self._call(name, "ReloadControllerLibraries", force_kill=force_kill)[0]:
             raise self._refused(name, "", "controllers are loaded; kill them, or force_kill=True")
 
     def close(self) -> None:
@@ -223,7 +223,7 @@ class Controllers(Closeable):
 
     # -- calls ------------------------------------------------------------------------------
 
-    def _ask(self, name: str, kind: str, /, **fields: object) -> tuple[bool, bool]:
+    def _call(self, name: str, kind: str, /, **fields: object) -> tuple[bool, bool]:
         """Return whether the manager agrees, and whether an earlier try may have been carried out."""
         answer, again = self._caller.call_again(name, f"controller_manager_msgs/{kind}", **fields)
         return bool(answer.ok), again

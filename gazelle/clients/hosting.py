@@ -46,7 +46,7 @@ class SimulatorProcess(Closeable):
 
     Raises:
         ClientError: There is a simulator on the graph already; or this one ends at once, or is
-            not there in time: the message has what it said.
+            not there in time: the message has its errors.
     """
 
     def __init__(
@@ -70,12 +70,12 @@ class SimulatorProcess(Closeable):
         command += options
         _refuse_another(uri)
         # A file, for a pipe without a reader would stop a simulator that says much.
-        self._said = tempfile.TemporaryFile()  # noqa: SIM115  # it is closed with the process
+        self._stderr = tempfile.TemporaryFile()  # noqa: SIM115  # it is closed with the process
         self._process = subprocess.Popen(  # noqa: S603  # this very program
             command,
             env={**os.environ, "ROS_MASTER_URI": uri},
             stdout=subprocess.DEVNULL,
-            stderr=self._said,
+            stderr=self._stderr,
         )
         try:
             self.gazebo = self._wait(uri, timeout)
@@ -102,9 +102,9 @@ class SimulatorProcess(Closeable):
         deadline = deadline_after(timeout)
         while True:
             if not self.running:
-                self._said.seek(0)
-                said = self._said.read().decode(errors="replace").strip()
-                raise ClientError(f"the simulator ended at once: {said}")
+                self._stderr.seek(0)
+                errors = self._stderr.read().decode(errors="replace").strip()
+                raise ClientError(f"the simulator ended at once: {errors}")
             try:
                 return _client(uri)
             except RosError:
@@ -119,7 +119,7 @@ class SimulatorProcess(Closeable):
         except subprocess.TimeoutExpired:
             self._process.kill()
             self._process.wait()
-        self._said.close()
+        self._stderr.close()
 
 
 def _client(uri: str) -> Gazebo:

@@ -117,12 +117,12 @@ class JointCommander(Closeable):
         self.send(wanted, timeout)
         while True:
             with self._news:
-                heard = self._news.wait(max(0.0, deadline - time.monotonic()))
+                received = self._news.wait(max(0.0, deadline - time.monotonic()))
                 there = self.positions
             left = {name: wanted[name] - value for name, value in there.items()}
-            if heard and progress is not None:
+            if received and progress is not None:
                 progress(left)
-            if heard and set(left) == set(wanted) and max(map(abs, left.values())) <= tolerance:
+            if received and set(left) == set(wanted) and max(map(abs, left.values())) <= tolerance:
                 return there
             if time.monotonic() > deadline:
                 raise ClientError(self._not_there(left, wanted, timeout))
@@ -135,9 +135,9 @@ class JointCommander(Closeable):
     def _not_there(
         self, left: Mapping[str, float], wanted: Mapping[str, float], timeout: float
     ) -> str:
-        unheard = [name for name in wanted if name not in left]
-        if unheard:
-            return f"nothing of '{unheard[0]}' came on {self._states_topic} in {timeout:g} s"
+        missing = [name for name in wanted if name not in left]
+        if missing:
+            return f"nothing of '{missing[0]}' came on {self._states_topic} in {timeout:g} s"
         worst = max(left, key=lambda name: abs(left[name]))
         return f"'{worst}' is still {left[worst]:.4g} away from {wanted[worst]:.4g} after {timeout:g} s"
 

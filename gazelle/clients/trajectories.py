@@ -79,11 +79,11 @@ class TrajectoryRun:
         goal: control_msgs.msg.FollowJointTrajectoryGoal,
         progress: Callable[[TrajectoryProgress], object] | None,
     ) -> None:
-        self._action, self._tell = client.ns, progress
+        self._action, self._report = client.ns, progress
         self._ended = threading.Event()
         self.progress: TrajectoryProgress | None = None
         """As last received."""
-        self._handle = client.send_goal(goal, self._changed, self._heard)
+        self._handle = client.send_goal(goal, self._changed, self._on_feedback)
 
     def wait(self, timeout: float = 60.0) -> TrajectoryOutcome:
         """Wait for the end.
@@ -110,7 +110,7 @@ class TrajectoryRun:
         if handle.get_comm_state() == CommState.DONE:
             self._ended.set()
 
-    def _heard(
+    def _on_feedback(
         self, _handle: ClientGoalHandle, feedback: control_msgs.msg.FollowJointTrajectoryFeedback
     ) -> None:
         names = feedback.joint_names
@@ -119,8 +119,8 @@ class TrajectoryRun:
             dict(zip(names, feedback.actual.positions, strict=False)),
             dict(zip(names, feedback.error.positions, strict=False)),
         )
-        if self._tell is not None:
-            self._tell(self.progress)
+        if self._report is not None:
+            self._report(self.progress)
 
 
 @checked(ClientError, after=True)

@@ -15,7 +15,7 @@ class DestinationTask(SimulationTask):
     """A `SimulationTask` with the robot's place in its info from the reset on."""
 
     @abstractmethod
-    def whereabouts(self, worlds: Worlds | None) -> Info:
+    def place_info(self, worlds: Worlds | None) -> Info:
         """Return the positions of the robot and its goal in these worlds; all if None."""
 
     def comes_closer(self, distance: Floats) -> Bools:
@@ -31,5 +31,5 @@ class DestinationTask(SimulationTask):
 
     def _look(self, worlds: Worlds) -> tuple[Floats32, Info]:
         no = np.zeros(len(worlds), np.bool_)
-        info = {"is_success": no, "is_collision": no.copy(), **self.whereabouts(worlds)}
+        info = {"is_success": no, "is_collision": no.copy(), **self.place_info(worlds)}
         return super()._look(worlds)[0], info

@@ -65,11 +65,11 @@ def filled(polygons: Planar, depth: float) -> Bools:
     _, after = _neighbours(rows)
     sides = np.bincount(rows, minlength=polygons.count)
     starts = np.cumsum(sides) - sides
-    asked = np.flatnonzero(~kept & fits[polygons.rows])
-    owner = polygons.rows[asked]
-    passed = np.cumsum(kept)[asked] - 1 - starts[owner]
+    checked = np.flatnonzero(~kept & fits[polygons.rows])
+    owner = polygons.rows[checked]
+    passed = np.cumsum(kept)[checked] - 1 - starts[owner]
     side = starts[owner] + passed % np.maximum(sides[owner], 1)
-    along, away = points[after[side]] - points[side], polygons.points[asked] - points[side]
+    along, away = points[after[side]] - points[side], polygons.points[checked] - points[side]
     height = along[:, 0] * away[:, 1] - along[:, 1] * away[:, 0]
     height /= np.hypot(along[:, 0], along[:, 1])
     fits[owner[height > depth]] = False

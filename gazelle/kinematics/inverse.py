@@ -129,7 +129,7 @@ class InverseKinematics:
         Raises:
             PlanningError: A shape is wrong.
         """
-        targets, given = self._asked(poses, states)
+        targets, given = self._checked_request(poses, states)
         count = len(targets)
         positions = np.full((count, len(self.group.variables)), np.nan)
         attempts = np.zeros(count, np.int64)
@@ -156,13 +156,13 @@ class InverseKinematics:
         Raises:
             PlanningError: A shape is wrong.
         """
-        targets, given = self._asked(poses, states)
+        targets, given = self._checked_request(poses, states)
         found = np.array(given, order="C")
         self._solver.follow(targets, found, self._weights, self._tolerance)
         columns = self.group.columns
         return given[:, columns] + self.group.difference(given[:, columns], found[:, columns])
 
-    def _asked(self, poses: ArrayLike, states: ArrayLike | None) -> tuple[Floats, Floats]:
+    def _checked_request(self, poses: ArrayLike, states: ArrayLike | None) -> tuple[Floats, Floats]:
         """Return poses as rows of shape (n, 12) and states of shape (n, variables)."""
         wanted = np.asarray(poses, np.float64)
         if wanted.ndim != 3 or wanted.shape[1:] != (4, 4):

@@ -148,7 +148,7 @@ class RobotModel:
     def _group(self, name: str) -> JointModelGroup:
         """Build a group from the SRDF, and derive its links, tips and base."""
         joints = {joint.name for joint in self.joints_of(name)}
-        said = self._said(name)
+        said = self._nested_groups(name)
         joints |= {joint for group in said for joint in group.joints}
         chains = [chain for group in said for chain in group.chains]
         links = [joint.child for joint in self.joints.values() if joint.name in joints]
@@ -159,10 +159,10 @@ class RobotModel:
         base = chains[0][0] if len(chains) == 1 and len(said) == 1 else ""
         return self._made(name, joints, tuple(ordered), tips, base)
 
-    def _said(self, name: str) -> list[JointGroup]:
+    def _nested_groups(self, name: str) -> list[JointGroup]:
         """Return a group and all that are part of it."""
         group = self.semantics.group(name)
-        return [group, *(each for inner in group.groups for each in self._said(inner))]
+        return [group, *(each for inner in group.groups for each in self._nested_groups(inner))]
 
     def _parents(self) -> dict[str, str]:
         """Return the parent of each link."""

@@ -90,7 +90,7 @@ class DroneCommands(TwistInput):
         return {
             "drifts": self._drifts.copy(),
             "age": self._age.copy(),
-            "heard": self._received_ns.copy(),
+            "received": self._received_ns.copy(),
             "keys": self._stream.keys.copy(),
             "counters": self._stream.counters.copy(),
         }
@@ -98,5 +98,5 @@ class DroneCommands(TwistInput):
     def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
         """Restore what ``state`` returned."""
         self._drifts[:], self._age[:] = state["drifts"], state["age"]
-        self._received_ns[:] = state["heard"]
+        self._received_ns[:] = state["received"]
         self._stream.keys[:], self._stream.counters[:] = state["keys"], state["counters"]

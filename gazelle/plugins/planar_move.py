@@ -86,11 +86,11 @@ class PlanarMove(ModelPlugin):
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
         """Return the time of the last command."""
-        return {"heard_at": np.array(self.command.since_ns)}
+        return {"received_at": np.array(self.command.since_ns)}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Restore what ``state`` returned."""
-        self.command.restart(int(state["heard_at"]))
+        self.command.restart(int(state["received_at"]))
         if self._schedule is not None:
             self._schedule.done(self._clock.now_ns)
 

@@ -189,11 +189,11 @@ class UsvThrust(ModelPlugin):
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
         """Return commands and their times."""
-        return {"commands": self._commands.copy(), "heard": self._received_ns.copy()}
+        return {"commands": self._commands.copy(), "received": self._received_ns.copy()}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Restore what ``state`` returned."""
-        self._commands[:], self._received_ns[:] = state["commands"], state["heard"]
+        self._commands[:], self._received_ns[:] = state["commands"], state["received"]
 
 
 def _tiled(vector: Floats, count: int) -> Floats:

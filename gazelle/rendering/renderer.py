@@ -156,9 +156,9 @@ class Renderer:
         Raises:
             EngineError: Something else is wanted, or there is no such world.
         """
-        strangers = set(want) - {"color", "depth", "labels"}
-        if strangers:
-            raise EngineError(f"pictures have color, depth and labels, not {min(strangers)!r}")
+        unknown = set(want) - {"color", "depth", "labels"}
+        if unknown:
+            raise EngineError(f"pictures have color, depth and labels, not {min(unknown)!r}")
         cameras = self._cameras(positions, quaternions, worlds)
         cameras[:, c.UNSEEN] = -1 if unseen is None else unseen
         shape = (lens.height, lens.width)

@@ -78,7 +78,7 @@ class ControlLoop(ModelPlugin):
         self._updated_ns: int | None = None
         self._written_ns: int | None = None
         self._native_run: tuple[ControlCycle, JointLaw, list[ControlLaw], int, int] | None = None
-        self._handed = self._resting = False
+        self._handed_over = self._resting = False
 
     def change_hardware(self, hardware: SimulatedHardware) -> None:
         """Control through other hardware; nothing is loaded yet."""
@@ -98,16 +98,16 @@ class ControlLoop(ModelPlugin):
 
     def _invalidate(self) -> None:
         """Return control from native code to Python."""
-        if self._handed or self._resting:
+        if self._handed_over or self._resting:
             self._robot.simulation.loop.in_step.invalidate(self)
         self._resting = False
-        if self._handed:
-            self._handed = False
+        if self._handed_over:
+            self._handed_over = False
             self._catch_up()
 
     def settle(self) -> None:
         """Take over the state that native code computed so far."""
-        if self._handed:
+        if self._handed_over:
             with self._robot.simulation.lock:
                 self._catch_up()
 
@@ -202,7 +202,7 @@ class ControlLoop(ModelPlugin):
             cycle.run(*wanted[1:])
             self._native_run = wanted
         cycle.begin(_or_never(self._updated_ns), _or_never(self._written_ns))
-        self._handed = True
+        self._handed_over = True
         # Without controllers nothing reports when there is nothing left to do.
         return InStep((cycle,), self.manager.wake_ns(), bool(laws) and self.manager.patient)
 

@@ -55,8 +55,8 @@ def devices_of(robot: StageRobot) -> Iterator[tuple[type[Any], str, int]]:
         yield StageActuator, rider.model.name.removeprefix("/"), which
 
 
-def _of_all_worlds(fleet: StageFleet, ask: Callable[[int], Any]) -> Callable[[], tuple[Any, ...]]:
-    return lambda: tuple(ask(world) for world in range(fleet.nworld))
+def _of_all_worlds(fleet: StageFleet, read: Callable[[int], Any]) -> Callable[[], tuple[Any, ...]]:
+    return lambda: tuple(read(world) for world in range(fleet.nworld))
 
 
 def _bumps(fleet: StageFleet, name: str, which: int) -> Callable[[int], Any]:

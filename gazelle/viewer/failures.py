@@ -47,7 +47,7 @@ def draw_failures(found: Evaluation) -> Picture:
     places = [point for record in found.records for point in _points(record).values()]
     if not places:
         raise TaskError(
-            "there are no places to draw: the task tells neither position nor goal",
+            "there are no places to draw: the task reports neither position nor goal",
             hint='give "position" and "goal" (x, y) in its info, or save a .csv',
         )
     plan = found.floor_plan

@@ -10,7 +10,7 @@ from gazelle.array_types import Floats
 from gazelle.engines.planar.fan_scanner import FanScanner
 from gazelle.engines.planar.fans import Fan, Mount, Scanner
 from gazelle.engines.planar.fleet import Fleet
-from gazelle.engines.planar.scan_columns import ASTRAY
+from gazelle.engines.planar.scan_columns import ANGLE_NOISE
 
 _SHARE = 1000  # beams that are worth a thread
 
@@ -41,7 +41,7 @@ class AngleNoiseScanner(Scanner):
         seed: int = 0,
     ) -> None:
         super().__init__(fleet, fan, mounts, named=named, seed=seed)
-        self._native = self._native_of(ASTRAY, solid=False)  # beams may be over solids
+        self._native = self._native_of(ANGLE_NOISE, solid=False)  # beams may be over solids
         self._share = _SHARE
         self._spread = np.ascontiguousarray(spread, np.float64)
         made: FanScanner | None = self._native

@@ -43,7 +43,7 @@ cdef class FanScanner(System):
     cdef void scan_singly(
         self, long long[::1] owners, Py_ssize_t first, Py_ssize_t last) noexcept nogil
     @cython.locals(base=Py_ssize_t, count=Py_ssize_t)
-    cdef void scan_astray(
+    cdef void scan_with_angle_noise(
         self, long long[::1] owners, Py_ssize_t first, Py_ssize_t last,
         long long tick) noexcept nogil
     @cython.locals(true=double)

@@ -13,7 +13,7 @@ import numpy as np
 from cython.cimports.gazelle.engines.planar.beams import Beams, Candidates
 from cython.cimports.gazelle.engines.planar.near_bodies import meet_bodies
 from cython.cimports.gazelle.engines.planar.scan_columns import (
-    ASTRAY,
+    ANGLE_NOISE,
     CROWDED,
     LANE_BEST,
     LANE_NAME,
@@ -131,8 +131,8 @@ class FanScanner(System):
             self.scan_crowded(owners, first, last)
         elif self.way == SINGLY:
             self.scan_singly(owners, first, last)
-        elif self.way == ASTRAY:
-            self.scan_astray(owners, first, last, tick)
+        elif self.way == ANGLE_NOISE:
+            self.scan_with_angle_noise(owners, first, last, tick)
         else:
             self.scan_all(owners, first, last)
         if self.constant > 0.0 or self.share > 0.0:
@@ -202,7 +202,9 @@ class FanScanner(System):
                     self.scan_one(m)
             begin = end
 
-    def scan_astray(self, owners: NDArray[np.int64], first: int, last: int, tick: int) -> None:
+    def scan_with_angle_noise(
+        self, owners: NDArray[np.int64], first: int, last: int, tick: int
+    ) -> None:
         """Scan with normal noise on the angle of every beam."""
         total = self.beams.count
         for m in range(first, last):

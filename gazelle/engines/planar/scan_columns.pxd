@@ -65,4 +65,4 @@ cdef enum:
     ALL = 0
     CROWDED = 1
     SINGLY = 2
-    ASTRAY = 3
+    ANGLE_NOISE = 3

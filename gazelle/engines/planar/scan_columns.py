@@ -86,8 +86,8 @@ F_INVERSE: Final = 11 * ROOM
 F_TURNS: Final = 12 * ROOM
 
 # How to scan: all in view is drawn; beams are followed where many statics are in view; beams of
-# many sensors are followed side by side; beams go a little beside where they should.
+# many sensors are followed side by side; beams have noise on their angle.
 ALL: Final = 0
 CROWDED: Final = 1
 SINGLY: Final = 2
-ASTRAY: Final = 3
+ANGLE_NOISE: Final = 3

@@ -172,9 +172,9 @@ class DriveTask(DestinationTask):
         )
         success = ends.reached if self._goal is not None else self.lasting & ~ends.crashed
         info = {"is_success": success, "is_collision": ends.crashed & ~ends.reached}
-        return StepOutcome(reward, ends.over, {**info, **self.whereabouts(None)})
+        return StepOutcome(reward, ends.over, {**info, **self.place_info(None)})
 
-    def whereabouts(self, worlds: Worlds | None) -> Info:
+    def place_info(self, worlds: Worlds | None) -> Info:
         """Return the places of robot and goal; see `DestinationTask`."""
         place = self.robot.planar_pose(worlds)[:, :2]
         if self._goal is None:

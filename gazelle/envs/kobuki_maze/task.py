@@ -128,7 +128,7 @@ class KobukiTask(SimulationTask):
         if self._boxes is not None:
             self._boxes.step()
         info = {"is_success": done, "is_collision": collided & ~done}
-        return StepOutcome(reward, done, {**info, **self._whereabouts(None, distance)})
+        return StepOutcome(reward, done, {**info, **self._place_info(None, distance)})
 
     def _next_point(self, reached: Bools) -> Bools:
         """Set the next point of the path where one is reached.
@@ -157,10 +157,10 @@ class KobukiTask(SimulationTask):
     def _look(self, worlds: Worlds) -> tuple[Floats32, Info]:
         no: Bools = np.zeros(len(worlds), np.bool_)
         pose, goal = self.robot.planar_pose(worlds), self.memory["goal"][worlds]
-        where = self._whereabouts(worlds, distance_to(pose, goal))
+        where = self._place_info(worlds, distance_to(pose, goal))
         return super()._look(worlds)[0], {"is_success": no, "is_collision": no.copy(), **where}
 
-    def _whereabouts(self, worlds: Worlds | None, distance: Floats) -> Info:
+    def _place_info(self, worlds: Worlds | None, distance: Floats) -> Info:
         rows = slice(None) if worlds is None else worlds
         return {
             "position": self.robot.planar_pose(worlds)[:, :2],

@@ -116,9 +116,9 @@ class ParrotDroneTask(DestinationTask):
         closer = self.comes_closer(distance)
         reward = reward_of(self.rules, over=ends.over, succeeded=ends.succeeded, closer=closer)
         info = {"is_success": ends.succeeded, "is_collision": ends.crashed & ~ends.succeeded}
-        return StepOutcome(reward, ends.over, {**info, **self.whereabouts(None)})
+        return StepOutcome(reward, ends.over, {**info, **self.place_info(None)})
 
-    def whereabouts(self, worlds: Worlds | None) -> Info:
+    def place_info(self, worlds: Worlds | None) -> Info:
         """Return the places of robot and goal; see `DestinationTask`."""
         place = self.robot.placement(worlds).position
         goal = np.tile(self.rules.goal, (len(place), 1))

@@ -116,9 +116,9 @@ class WamvTask(DestinationTask):
         closer = self.comes_closer(distance)
         info = {"is_success": success, "is_collision": np.zeros(self.nworld, np.bool_)}
         reward = reward_of(self.rules, over=over, success=success, closer=closer)
-        return StepOutcome(reward, over, {**info, **self.whereabouts(None)})
+        return StepOutcome(reward, over, {**info, **self.place_info(None)})
 
-    def whereabouts(self, worlds: Worlds | None) -> Info:
+    def place_info(self, worlds: Worlds | None) -> Info:
         """Return the places of robot and goal; see `DestinationTask`."""
         place = self.robot.placement(worlds).position[:, :2]
         goal = np.tile(self.rules.goal[:2], (len(place), 1))

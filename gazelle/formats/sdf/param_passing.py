@@ -130,7 +130,7 @@ class _Passing:
         for index, child, rest in self._steps(node, path):
             new: Parts | None
             if child.tag == "include":
-                new = self._handed_on(child, entry, rest)
+                new = self._passed_on(child, entry, rest)
             elif rest:
                 deeper = _kind(kind, child.tag)
                 inner = self._replaced(child, deeper, rest, tag, entry, change)
@@ -167,7 +167,7 @@ class _Passing:
     def _name(self, node: Parameters) -> str:
         return self.name_of(node) if node.tag == "include" else node.attributes.get("name", "")
 
-    def _handed_on(self, include: Parameters, entry: Parameters, rest: str) -> Parts | None:
+    def _passed_on(self, include: Parameters, entry: Parameters, rest: str) -> Parts | None:
         """Return an include within the included model; the change is made when that is read."""
         action = entry.attributes.get("action", "")
         if not rest and action in {"remove", "replace"} and entry.tag == "model":

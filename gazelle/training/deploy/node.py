@@ -90,7 +90,7 @@ class DeployNode(Closeable):
         self._frames = GoalFrames(node)
         self._best = 0.0
         self._score = 0.0
-        self._said = ""
+        self._last_cause = ""
         self._master_lost = False
         self._guard = _start_guard(node)
         self._connect()
@@ -253,8 +253,8 @@ class DeployNode(Closeable):
         else:
             text = "driving" if tick.reason is None else f"overruled: {tick.reason}"
         cause = text.partition(" at ")[0]
-        if cause != self._said:
-            self._said = cause
+        if cause != self._last_cause:
+            self._last_cause = cause
             self._status.publish(self._status.message_class(text))
 
     def _stop_without_guard(self) -> None:

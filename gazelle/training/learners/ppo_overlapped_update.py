@@ -59,14 +59,14 @@ class UpdateAhead:
     def get_state(self) -> dict[str, Any]:
         """Wait; what `from_state` continues with."""
         self.wait()
-        return {**self._update.get_state(), "told": self._figures}
+        return {**self._update.get_state(), "figures": self._figures}
 
     @classmethod
     def from_state(cls, update: DenseUpdate, state: Mapping[str, Any]) -> UpdateAhead:
         """Return a finished update, from what `get_state` returned."""
         update.set_state(state)
         found = cls(update, list)
-        found._figures = [float(value) for value in state["told"]]
+        found._figures = [float(value) for value in state["figures"]]
         return found
 
     def _run(self) -> None:

@@ -221,7 +221,7 @@ class Node(TopicNode, ServiceNode, Closeable):
         self._tcpros.close()
         self.calls.close()
 
-    def asked_to_end(self, caller: str, reason: str) -> None:
+    def shutdown_requested(self, caller: str, reason: str) -> None:
         """Handle a request of the master or a tool to shut down."""
         text = f"{caller}: {reason}" if reason else caller
 

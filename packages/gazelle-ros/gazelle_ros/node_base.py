@@ -111,7 +111,7 @@ class NodeBase(ABC):
         if self._closing:
             raise NodeClosedError(f"the node {self.name} is closed")
 
-    def _ask(self, method: str, *params: Any) -> Any:
+    def _call_master(self, method: str, *params: Any) -> Any:
         """Call the master; while it does not answer, the registrar continues trying."""
         try:
             return self.master.call(method, *params)

@@ -30,7 +30,7 @@ _LEVELS = (
     (logging.INFO, _INFO),
 )
 _MOST_KEPT = 100
-"""Lines that are kept for the first subscriber: rosout hears of a new node a moment late."""
+"""Lines that are kept for the first subscriber: rosout subscribes to a new node a moment late."""
 
 
 def report_on_rosout(node: Node) -> RosoutLog | None:
@@ -82,7 +82,7 @@ class RosoutLog(logging.Handler):
         if record.levelno >= logging.WARNING and not _shown_elsewhere(record.name):
             sys.stderr.write(f"[{record.levelname}] {text}\n")
 
-    def tell_warning(self, text: str, file: str, line: int) -> None:
+    def log_warning(self, text: str, file: str, line: int) -> None:
         """Publish a warning."""
         self._publish(_WARN, text, file, line, "")
 
@@ -149,4 +149,4 @@ def _show(
     _shown(message, category, filename, lineno, file, line)
     if issubclass(category, GazelleWarning):
         for log in list(_active):
-            log.tell_warning(str(message), Path(filename).name, lineno)
+            log.log_warning(str(message), Path(filename).name, lineno)

@@ -36,7 +36,7 @@ class ServiceNode(NodeBase):
             server = self._services[resolved] = ServiceServer(
                 self, resolved, service_class, handler, self._unserve
             )
-        self._ask("registerService", resolved, server.uri, self.uri)
+        self._call_master("registerService", resolved, server.uri, self.uri)
         return server
 
     def client(self, name: str, service_class: Any, *, persistent: bool = False) -> ServiceClient:
@@ -92,7 +92,7 @@ class ServiceNode(NodeBase):
             if self._closing:
                 return
             self._services.pop(server.name, None)
-        self._ask("unregisterService", server.name, server.uri)
+        self._call_master("unregisterService", server.name, server.uri)
         self.loop.run(server.drop_all)
 
     def _forget_client(self, client: ServiceClient) -> None:

@@ -38,7 +38,7 @@ class SlaveNode(Protocol):
     def subscription(self, topic: str) -> Subscription | None:
         """Return the subscription to a topic, if any."""
 
-    def asked_to_end(self, caller: str, reason: str) -> None:
+    def shutdown_requested(self, caller: str, reason: str) -> None:
         """Handle a request of the master or a tool to shut down."""
 
 
@@ -143,7 +143,7 @@ class SlaveApi:
 
     def shutdown(self, caller: str, reason: str) -> Triple:
         """Handle a request of the master or a tool to shut down."""
-        self._node.asked_to_end(caller, reason)
+        self._node.shutdown_requested(caller, reason)
         return 1, "shutdown", 0
 
     def param_update(self, _caller: str, key: str, value: Any) -> Triple:

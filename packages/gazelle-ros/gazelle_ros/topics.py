@@ -80,7 +80,7 @@ class TopicNode(NodeBase):
             self._publications[name] = publication
         if fresh:
             publisher.introduced = True
-            self._ask("registerPublisher", name, message_class._type, self.uri)
+            self._call_master("registerPublisher", name, message_class._type, self.uri)
         else:
             self.loop.call_soon(functools.partial(publication.introduce, publisher))
         return publisher
@@ -128,7 +128,7 @@ class TopicNode(NodeBase):
 
     def _register_subscription(self, subscription: Subscription) -> None:
         kind = subscription.message_class._type
-        uris = self._ask("registerSubscriber", subscription.topic, kind, self.uri)
+        uris = self._call_master("registerSubscriber", subscription.topic, kind, self.uri)
 
         def begin() -> None:
             # An update from the master is newer than its answer, whichever came first.
@@ -200,7 +200,7 @@ class TopicNode(NodeBase):
             if publication.publishers:
                 return
             self._publications.pop(publication.topic, None)
-        self._ask("unregisterPublisher", publication.topic, self.uri)
+        self._call_master("unregisterPublisher", publication.topic, self.uri)
         self.loop.run(publication.close)
 
     def _unsubscribe(self, subscriber: Subscriber) -> None:
@@ -211,7 +211,7 @@ class TopicNode(NodeBase):
             if subscription.subscribers or self._closing:
                 return
             self._subscriptions.pop(subscription.topic, None)
-        self._ask("unregisterSubscriber", subscription.topic, self.uri)
+        self._call_master("unregisterSubscriber", subscription.topic, self.uri)
         self.loop.run(subscription.close)
 
 

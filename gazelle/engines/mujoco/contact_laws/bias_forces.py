@@ -35,7 +35,7 @@ _ROUNDS = cython.declare(cython.int, 3)
 @cython.nogil
 @cython.exceptval(check=False)
 def take_bias_midway(
-    model: cython.size_t, data: cython.size_t, numbers: cython.size_t, told: cython.size_t
+    model: cython.size_t, data: cython.size_t, numbers: cython.size_t, too_fast: cython.size_t
 ) -> cython.bint:
     """Set the step to use the forces of its middle, where something turns fast enough.
 
@@ -43,7 +43,7 @@ def take_bias_midway(
         model: Address of the ``mjModel``.
         data: Address of the ``mjData``.
         numbers: Address of the law's numbers, which the degrees of freedom to look at follow.
-        told: Address of a number that becomes one where something turns too far in a step.
+        too_fast: Address of a number that becomes one where something turns too far in a step.
 
     Returns:
         Whether it does.
@@ -65,7 +65,7 @@ def take_bias_midway(
     if not first * second * step > _SLOW:
         return False
     if first * step > MOST_A_STEP:
-        floats(told)[0] = 1.0
+        floats(too_fast)[0] = 1.0
     # What comes later in the step fills these again.
     kept = floats(word(data + AT.constraint))
     force = floats(word(data + AT.smooth))

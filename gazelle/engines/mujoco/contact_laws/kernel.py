@@ -215,7 +215,7 @@ def _first_direction(touch: cython.pointer[Touch], found: cython.p_double) -> cy
 @cython.nogil
 @cython.exceptval(check=False)
 def _keep_turning(
-    model: cython.size_t, data: cython.size_t, count: cython.int, told: cython.size_t
+    model: cython.size_t, data: cython.size_t, count: cython.int, too_fast: cython.size_t
 ) -> cython.void:
     """Set the gyroscopic torque of free bodies to that of the middle of the step."""
     step = floats(model + AT.model_timestep)[0]
@@ -232,7 +232,7 @@ def _keep_turning(
         if fast * step < _AT_REST:
             continue
         if fast * step * step > MOST_A_STEP * MOST_A_STEP:
-            floats(told)[0] = 1.0
+            floats(too_fast)[0] = 1.0
         moments = floats(word(model + AT.model_inertia) + 24 * body)
         axes = floats(word(model + AT.model_iquat) + 32 * body)
         _rotate(axes, velocity, -1.0, spin)

@@ -5,8 +5,8 @@ MARK = 7.0131e57
 
 # Numbers before those of the tumbling bodies: the mark, whether Jacobians are sparse, how many
 # bodies tumble, how many motors there are, whether something rubs by direction, there are
-# wheels, something slides, how many velocities of joints to look at, the address of what is
-# told of spins, that of ``Hooks`` (0 for none), and the number of the world. Each body that tumbles
+# wheels, something slides, how many velocities of joints to look at, the address of the flag
+# of spins that are too fast, that of ``Hooks`` (0 for none), and the number of the world. Each body that tumbles
 # has its index and the first of its six velocities.
 HEAD = 11
 WORLD = 10

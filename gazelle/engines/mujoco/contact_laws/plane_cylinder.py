@@ -3,7 +3,7 @@
 MuJoCo looks for the lowest point of a cylinder's rim along the part of the plane's normal that is
 across the axis. For a cylinder that stands upright that part is rounding, of any direction: along
 the normal it has no contact, or one as deep as its radius, and a disc that spins where it
-stands falls through the ground or is shot into the air. This does the same sums, but tells
+stands falls through the ground or is shot into the air. This computes the same, but distinguishes
 upright from leaning by a hundred-millionth of a radian.
 
 A wheel that is level touches with both edges of its tread. It stands on the middle of it (``wheel_contacts``),

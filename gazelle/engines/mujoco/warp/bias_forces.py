@@ -22,7 +22,7 @@ def find_swings(
     qvel: wp.array2d[float],
     kept: wp.array2d[float],
     swings: wp.array[int],
-    told: wp.array[int],
+    too_fast: wp.array[int],
 ) -> None:
     """Find the worlds in which something swings fast enough to matter, and keep all velocities."""
     world = wp.tid()
@@ -41,7 +41,7 @@ def find_swings(
     if first * second * step > SLOW:
         swings[world] = 1
         if first * step > MOST_A_STEP:
-            told[0] = 1
+            too_fast[0] = 1
 
 
 @wp.kernel
@@ -80,7 +80,7 @@ def keep_turning(
     swings: wp.array[int],
     qvel: wp.array2d[float],
     passive: wp.array2d[float],
-    told: wp.array[int],
+    too_fast: wp.array[int],
 ) -> None:
     """Compute the gyroscopic torque of free bodies at the middle of the step."""
     world, place = wp.tid()
@@ -92,7 +92,7 @@ def keep_turning(
     if swings[world] != 0 or fast * step < AT_REST:
         return
     if fast * step * step > MOST_A_STEP * MOST_A_STEP:
-        told[0] = 1
+        too_fast[0] = 1
     moments = body_inertia[world % body_inertia.shape[0], body]
     wxyz = body_iquat[world % body_iquat.shape[0], body]
     axes = wp.quat(wxyz[1], wxyz[2], wxyz[3], wxyz[0])  # MuJoCo's order, made Warp's

@@ -44,11 +44,11 @@ class DeviceLaws:
         data: The worlds.
 
     Attributes:
-        told: Becomes one where something turns too fast for the step, shape (1,).
+        too_fast: Becomes one where something turns too fast for the step, shape (1,).
     """
 
     def __init__(self, host: mujoco.MjModel, model: Any, data: Any) -> None:
-        self.told = wp.zeros(1, dtype=int)
+        self.too_fast = wp.zeros(1, dtype=int)
         self._host = host
         head = host.numeric_data[:HEAD] if host.nnumeric else np.zeros(HEAD)
         if head[0] != MARK:
@@ -121,7 +121,7 @@ class DeviceLaws:
                     self._swings,
                     data.qvel,
                 ],
-                outputs=[data.qfrc_passive, self.told],
+                outputs=[data.qfrc_passive, self.too_fast],
             )
         if self._motors:
             self._drive(model, data)
@@ -157,7 +157,7 @@ class DeviceLaws:
             find_swings,
             data.nworld,
             inputs=[self._hinges, self._watched, model.opt.timestep, data.qvel],
-            outputs=[self._kept, self._swings, self.told],
+            outputs=[self._kept, self._swings, self.too_fast],
         )
         mujoco_warp.factor_m(model, data)
         for _ in range(_ROUNDS):

@@ -109,9 +109,9 @@ class DeviceWorlds:
 
     def turned_too_far(self) -> bool:
         """Return whether something turned too fast for the step since the last call."""
-        found = bool(self._laws.told.numpy()[0])
+        found = bool(self._laws.too_fast.numpy()[0])
         if found:
-            self._laws.told.zero_()
+            self._laws.too_fast.zero_()
         return found
 
     def field(self, state: Mapping[str, Floats], name: str) -> Any:

@@ -185,7 +185,7 @@ class ActionClient:
         self.types = ActionTypes.of(spec)
         self._machines: weakref.WeakSet[GoalMachine] = weakref.WeakSet()
         self._lock = threading.RLock()
-        self._heard = threading.Condition()
+        self._status_received = threading.Condition()
         self._status_from = ""
         self._goal_id = actionlib_msgs.msg.GoalID
         self._goal = node.advertise(f"{name}/goal", self.types.action_goal, _QUEUE)
@@ -250,7 +250,7 @@ class ActionClient:
         Returns:
             Whether it is there.
         """
-        return wait(self.node, self._heard, lambda: self.connected, timeout)
+        return wait(self.node, self._status_received, lambda: self.connected, timeout)
 
     wait_for_action_server_to_start = wait_for_server
 
@@ -267,9 +267,9 @@ class ActionClient:
 
     def _take_status(self, message: actionlib_msgs.msg.GoalStatusArray) -> None:
         who = str(message._connection_header.get("callerid", "?"))
-        with self._heard:
+        with self._status_received:
             self._status_from = who
-            self._heard.notify_all()
+            self._status_received.notify_all()
         statuses = {status.goal_id.id: status for status in message.status_list}
         for machine in self._live():
             machine.update_status(statuses.get(machine.name))

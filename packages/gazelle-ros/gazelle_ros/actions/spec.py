@@ -64,7 +64,7 @@ class ActionTypes:
 
 
 class Now(Protocol):
-    """Tells the time."""
+    """Clock of an action server."""
 
     def now(self) -> int:
         """Return the time [ns]."""

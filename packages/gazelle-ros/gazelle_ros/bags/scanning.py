@@ -61,7 +61,7 @@ class _Scanner:
         elif fields.op == records.CONNECTION:
             self._connection(fields, self._view[begin:end])
         elif fields.op == records.MESSAGE:
-            self._loose_message(fields, position, end)
+            self._unchunked_message(fields, position, end)
         elif fields.op not in {records.INDEX, records.CHUNK_INFO, records.BAG_HEADER}:
             raise BagFormatError(f"the record at byte {position} is of no known kind")
         return end
@@ -102,7 +102,7 @@ class _Scanner:
                 self._close_chunk()
                 self._chunk(position, fields, after + 4, len(self._view))
 
-    def _loose_message(self, fields: Fields, position: int, end: int) -> None:
+    def _unchunked_message(self, fields: Fields, position: int, end: int) -> None:
         """Add a message of a chunk that was never finished."""
         if self._open is None:
             self._open = Chunk(position, 0, 0, {}, compression.NONE, data=position)

@@ -33,7 +33,7 @@ _LOOKS = 30
 """Checks within that time, so that a process that was paused is not taken for stuck."""
 _LOST_S = 0.7
 """An exception that was swallowed, as in a destructor, is raised again after this time [s]."""
-_HEARD = 128
+_HANDLED = 128
 """Added to the number of a signal by the handler; Python itself writes the bare number."""
 _END = 0
 _INSIST_AT, _EXIT_AT = 2, 3
@@ -281,7 +281,7 @@ class _Listener:
         self._chosen = self.receivers[-1]
         if self._chosen is not None:
             self._chosen.signal = number
-        self._relay.post(_HEARD | number)
+        self._relay.post(_HANDLED | number)
         if self._chosen is None or self._count >= _INSIST_AT:
             self.interrupted = number
             if not self.held:
@@ -291,9 +291,9 @@ class _Listener:
     # On the thread of the relay ------------------------------------------------------------------
 
     def _relayed(self, byte: int) -> None:
-        if byte & _HEARD:
+        if byte & _HANDLED:
             if self._chosen is not None:
-                self._chosen.request(byte - _HEARD)
+                self._chosen.request(byte - _HANDLED)
             else:
                 self._insist()
         elif byte in self._before:

@@ -89,33 +89,33 @@ class HzTest(_Test):
         margin = float(self.param("hzerror")) if rate else 0.0
         wall = bool(self.param("wall_clock", default=False))
         clock = time.monotonic if wall else rospy.get_time
-        heard: list[float] = []
+        received: list[float] = []
         lock = threading.Lock()
 
-        def hear(_message: object) -> None:
+        def receive(_message: object) -> None:
             with lock:
-                heard.append(clock())
+                received.append(clock())
 
-        subscriber = rospy.Subscriber(str(self.param("topic")), rospy.AnyMsg, hear)
-        came = _wait(lambda: heard, float(self.param("wait_time", 20.0)))
+        subscriber = rospy.Subscriber(str(self.param("topic")), rospy.AnyMsg, receive)
+        came = _wait(lambda: received, float(self.param("wait_time", 20.0)))
         self.assertEqual(came, rate > 0, "no message came" if rate else "a message came")
         end = clock() + duration
         while clock() < end and not rospy.is_shutdown():
             time.sleep(_LOOK_S)
         subscriber.unregister()
         with lock:
-            self._judge(list(heard), rate, margin)
+            self._judge(list(received), rate, margin)
 
-    def _judge(self, heard: list[float], rate: float, margin: float) -> None:
+    def _judge(self, received: list[float], rate: float, margin: float) -> None:
         if not rate:
-            self.assertEqual(heard, [], "messages came")
+            self.assertEqual(received, [], "messages came")
             return
-        self.assertGreater(len(heard), 1, "only one message came")
-        measured = (len(heard) - 1) / (heard[-1] - heard[0])
+        self.assertGreater(len(received), 1, "only one message came")
+        measured = (len(received) - 1) / (received[-1] - received[0])
         self.assertGreaterEqual(measured, rate - margin, "the average rate is too low [Hz]")
         self.assertLessEqual(measured, rate + margin, "the average rate is too high [Hz]")
         if self.param("check_intervals", default=False):
-            gaps = [after - before for before, after in itertools.pairwise(heard)]
+            gaps = [after - before for before, after in itertools.pairwise(received)]
             self.assertGreaterEqual(min(gaps), 1 / (rate + margin), "an interval is too short [s]")
             if rate > margin:
                 self.assertLessEqual(max(gaps), 1 / (rate - margin), "an interval is too long [s]")
@@ -140,13 +140,13 @@ class PublishTest(_Test):
         """Test that a message comes on every topic, except those that are marked as negative."""
         topics = self.entries("topics")
         self.assertTrue(topics, "no topic is named in ~topics")
-        heard: set[str] = set()
+        received: set[str] = set()
         for each in topics:
-            rospy.Subscriber(each["name"], rospy.AnyMsg, lambda _, n=each["name"]: heard.add(n))
+            rospy.Subscriber(each["name"], rospy.AnyMsg, lambda _, n=each["name"]: received.add(n))
         begin = time.monotonic()
         for each in sorted(topics, key=lambda entry: float(entry["timeout"])):
             left = float(each["timeout"]) - (time.monotonic() - begin)
-            came = _wait(functools.partial(heard.__contains__, each["name"]), left)
+            came = _wait(functools.partial(received.__contains__, each["name"]), left)
             state = "published" if came else "not published"
             self.assertNotEqual(came, each["negative"], f"Topic [{each['name']}] is {state}")
 

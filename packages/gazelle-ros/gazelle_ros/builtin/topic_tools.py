@@ -183,7 +183,7 @@ def mux(arguments: Sequence[str]) -> int:
 class Mux:
     """Passes on one of several topics.
 
-    Services ``~select``, ``~add``, ``~delete`` and ``~list`` choose, topic ``~selected`` tells.
+    Services ``~select``, ``~add``, ``~delete`` and ``~list`` choose, topic ``~selected`` reports.
 
     Args:
         node: Does it.

@@ -153,7 +153,7 @@ def overview(program: CommandLine) -> str:
     lines += [
         "",
         "options:",
-        f"  -h, --help     this text; '{program.name} COMMAND --help' tells more",
+        f"  -h, --help     this text; '{program.name} COMMAND --help' has more",
         "  -V, --version  the version",
         "  --debug        show tracebacks and all warnings",
         "",

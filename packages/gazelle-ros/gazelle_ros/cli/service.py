@@ -61,7 +61,7 @@ def _list(args: argparse.Namespace) -> int:
 def _one(args: argparse.Namespace) -> int:
     from gazelle_ros.tools import services
 
-    tell = {
+    answer = {
         "info": services.service_info,
         "type": services.service_type,
         "uri": services.service_uri,
@@ -69,7 +69,7 @@ def _one(args: argparse.Namespace) -> int:
         "args": services.service_arguments,
     }[args.sub_command]
     with _graph() as graph:
-        sys.stdout.write(tell(graph, args.service).rstrip("\n") + "\n")
+        sys.stdout.write(answer(graph, args.service).rstrip("\n") + "\n")
     return 0
 
 

@@ -36,7 +36,7 @@ class MissingArgumentError(SubstitutionError):
         super().__init__(message, hint=hint)
         self.argument = argument
 
-    def ask_for_it_at(self, file: str | None, line: int | None) -> None:
+    def add_location(self, file: str | None, line: int | None) -> None:
         """Add a hint that an <include> should set it, unless one is named already."""
         if self.hint and "include" not in self.hint:
             self.hint = f"give it in the <include> at {file}:{line}"

@@ -357,7 +357,7 @@ class _Loader:
             self._launch(document, inner)
         except MissingArgumentError as error:
             if error.argument in inner.declared:
-                error.ask_for_it_at(element.file, element.line)
+                error.add_location(element.file, element.line)
             raise
         finally:
             self._depth -= 1

@@ -99,7 +99,7 @@ class MasterApi:
         entry = self._enter(caller, uri)
         self.registrations.publishers.add(topic, entry)
         self.registrations.note_publisher_type(topic, kind)
-        self._tell_publishers(topic)
+        self._notify_subscribers(topic)
         subscribers = self.registrations.subscriber_uris(topic)
         return 1, f"Registered [{caller}] as publisher of [{topic}]", subscribers
 
@@ -107,7 +107,7 @@ class MasterApi:
         """Unregister `caller` as a publisher of `topic`, and notify all subscribers."""
         triple = self._give_up(self.registrations.publishers, caller, topic, uri)
         if triple[2]:
-            self._tell_publishers(topic)
+            self._notify_subscribers(topic)
         return triple
 
     def register_subscriber(self, caller: str, topic: str, kind: str, uri: str) -> Triple:
@@ -185,7 +185,7 @@ class MasterApi:
             self.parameters.set(key, value)
         except TypeError as error:
             raise BadArgumentError(str(error)) from None
-        self._tell_parameter(caller, key, value)
+        self._notify_parameter(caller, key, value)
         return 1, f"parameter {key} set", 0
 
     def get_param(self, _caller: str, key: str) -> Triple:
@@ -205,7 +205,7 @@ class MasterApi:
             self.parameters.delete(key)
         except KeyError:
             return -1, f"parameter [{key}] is not set", 0
-        self._tell_parameter(caller, key, {})
+        self._notify_parameter(caller, key, {})
         return 1, f"parameter {key} deleted", 0
 
     def search_param(self, caller: str, key: str) -> Triple:
@@ -247,7 +247,7 @@ class MasterApi:
             reason = f"[{name}] Reason: new node registered with same name"
             self._notify(replaced.uri, "shutdown", (CALLER, reason))
             for topic in former_topics:
-                self._tell_publishers(topic)
+                self._notify_subscribers(topic)
         return entry
 
     def _give_up(self, roles: Roles, caller: str, topic: str, uri: str) -> Triple:
@@ -259,18 +259,18 @@ class MasterApi:
         self.registrations.leave_if_empty(entry)
         return 1, f"Unregistered [{caller}] as provider of [{topic}]", 1
 
-    def _tell_publishers(self, topic: str) -> None:
+    def _notify_subscribers(self, topic: str) -> None:
         publishers = self.registrations.publisher_uris(topic)
         for uri in self.registrations.subscriber_uris(topic):
             self._notify(uri, "publisherUpdate", (CALLER, topic, publishers))
 
-    def _tell_parameter(self, caller: str, key: str, value: Any) -> None:
+    def _notify_parameter(self, caller: str, key: str, value: Any) -> None:
         """Notify all subscribers of a parameter, except the caller itself."""
         subscribers = self.registrations.parameter_subscribers
         if not subscribers:
             return
-        for watched, told, now in changes(self.parameters, list(subscribers), key, value):
+        for watched, changed, now in changes(self.parameters, list(subscribers), key, value):
             for name in list(subscribers.get(watched, ())):
                 node = self.registrations.nodes.get(name)
                 if node is not None and name != caller:
-                    self._notify(node.uri, "paramUpdate", (CALLER, told, now))
+                    self._notify(node.uri, "paramUpdate", (CALLER, changed, now))

@@ -140,13 +140,13 @@ def changes(
     Yields:
         The subscribed key, the key to report (with a slash at the end), and the value to report.
     """
-    told = key.rstrip(SEPARATOR) + SEPARATOR
+    changed = key.rstrip(SEPARATOR) + SEPARATOR
     deleted = value == {} and not tree.has(key)
     for watched in subscribed:
         place = watched.rstrip(SEPARATOR) + SEPARATOR
-        if told.startswith(place):
-            yield watched, told, value
-        elif place.startswith(told):
+        if changed.startswith(place):
+            yield watched, changed, value
+        elif place.startswith(changed):
             # The subscriber looks at a part of what changed.
             missing = deleted or not tree.has(place)
             yield watched, place, {} if missing else tree.get(place)

@@ -62,7 +62,7 @@ class Master(Closeable):
         self._closed = False
         host = self._host = net.usable_host(host)
         self._calls = AsyncClient(self._loop, _PATIENCE_S, limits)
-        self.api = MasterApi(self._notify, self._ask_to_end)
+        self.api = MasterApi(self._notify, self._request_end)
         try:
             self._server = XmlRpcServer(
                 self._loop, host, port, self.api.dispatch, limits, self.api.prepare
@@ -93,7 +93,7 @@ class Master(Closeable):
     def _notify(self, uri: str, method: str, params: Sequence[Any]) -> None:
         self._calls.call(uri, method, params)
 
-    def _ask_to_end(self, _reason: str) -> None:
+    def _request_end(self, _reason: str) -> None:
         self.ended.set()
 
     def _set_marks(self, run_id: str) -> None:

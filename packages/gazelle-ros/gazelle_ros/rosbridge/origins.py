@@ -32,10 +32,10 @@ def may_connect(origin: str | None, host: str, settings: BridgeSettings) -> bool
         return settings.websocket_null_origin or _NULL in settings.allowed_origins
     if settings.allowed_origins and matches(origin, settings.allowed_origins):
         return True
-    page, asked = _name(origin), _name(f"//{host}")
+    page, allowed_host = _name(origin), _name(f"//{host}")
     if page is None:
         return False
-    return _is_here(page) or (page == asked and _is_trusted(page))
+    return _is_here(page) or (page == allowed_host and _is_trusted(page))
 
 
 def _name(uri: str) -> str | None:

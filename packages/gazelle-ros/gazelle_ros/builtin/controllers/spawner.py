@@ -165,15 +165,15 @@ def _controllers_of(word: str) -> list[str]:
 
 def _wait_for(topic: str, timeout: float | None) -> bool:
     """Wait until a topic says true, for ever if need be; returns whether it did."""
-    heard, true = threading.Event(), threading.Event()
+    received, true = threading.Event(), threading.Event()
 
-    def hear(message: std_msgs.msg.Bool) -> None:
-        heard.set()
+    def receive(message: std_msgs.msg.Bool) -> None:
+        received.set()
         if message.data:
             true.set()
 
-    subscriber = rospy.Subscriber(topic, std_msgs.msg.Bool, hear)
-    reminder = threading.Timer(timeout, _remind, (topic, heard)) if timeout else None
+    subscriber = rospy.Subscriber(topic, std_msgs.msg.Bool, receive)
+    reminder = threading.Timer(timeout, _remind, (topic, received)) if timeout else None
     if reminder is not None:
         reminder.daemon = True
         reminder.start()
@@ -188,8 +188,8 @@ def _wait_for(topic: str, timeout: float | None) -> bool:
     return True
 
 
-def _remind(topic: str, heard: threading.Event) -> None:
-    if not heard.is_set():
+def _remind(topic: str, received: threading.Event) -> None:
+    if not received.is_set():
         rospy.logwarn(
             f'Controller Spawner hasn\'t heard anything from its "wait for" topic ({topic})'
         )

@@ -103,7 +103,7 @@ class _NodeletLoader:
         """Unload the nodelet, unless that was done."""
         with self._lock:
             if self._loaded and not self._node.closed:
-                _ask_to_unload(self._node, self._manager, self._node.name)
+                _request_unload(self._node, self._manager, self._node.name)
             self._loaded = False
 
 
@@ -141,10 +141,10 @@ def _is_there(node: Node, manager: str) -> bool:
 def _unload(found: NodeArguments) -> int:
     _, name, manager, *_ = found.plain
     with found.start() as node:
-        return 0 if _ask_to_unload(node, manager, name) else 1
+        return 0 if _request_unload(node, manager, name) else 1
 
 
-def _ask_to_unload(node: Node, manager: str, name: str) -> bool:
+def _request_unload(node: Node, manager: str, name: str) -> bool:
     client = node.client(f"{manager}/unload_nodelet", messages.srv.NodeletUnload)
     try:
         return bool(client.call(messages.srv.NodeletUnloadRequest(name=name), _ANSWER_S).success)

@@ -170,8 +170,8 @@ def filter_by_resources(
     enough = any if match_any else all
 
     def claimed(claim: Any) -> bool:
-        asked = hardware_interface in (None, claim.hardware_interface)
-        return asked and enough(each in claim.resources for each in resources)
+        matches = hardware_interface in (None, claim.hardware_interface)
+        return matches and enough(each in claim.resources for each in resources)
 
     return [each for each in ctrl_list if any(map(claimed, each.claimed_resources))]
 

@@ -180,7 +180,7 @@ class Runner:
         self._before: dict[int, Any] = {}
         self._relay: SignalRelay | None = None
         self._over = False
-        launch.listeners.append(self._tell)
+        launch.listeners.append(self._on_exit)
 
     def start(self, *, auto_terminate: bool) -> None:
         """Start the launch.
@@ -239,7 +239,7 @@ class Runner:
             if self._auto_terminate and self._launch.idle and not self._launch.has_master:
                 self._launch.end()
 
-    def _tell(self, process: NodeProcess, code: int) -> None:
+    def _on_exit(self, process: NodeProcess, code: int) -> None:
         for listener in self._listeners:
             listener.process_died(process.name, code)
 

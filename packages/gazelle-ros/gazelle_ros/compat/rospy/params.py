@@ -44,9 +44,9 @@ def get_param_cached(param_name: str, default: Any = _unspecified) -> Any:
     return _get(param_name, default, known)
 
 
-def _get(param_name: str, default: Any, ask: Any) -> Any:
+def _get(param_name: str, default: Any, read: Any) -> Any:
     try:
-        return ask(resolve_name(param_name))
+        return read(resolve_name(param_name))
     except ParameterNotFoundError:
         if default is _unspecified:
             raise KeyError(param_name) from None

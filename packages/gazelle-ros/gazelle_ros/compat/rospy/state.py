@@ -74,7 +74,7 @@ class NodeProcessState:
     def adopt(self, node: Node) -> None:
         """Set the node, and run the deferred actions."""
         self.node = node
-        node.on_shutdown.append(self._asked_to_end)
+        node.on_shutdown.append(self._on_node_shutdown)
         atexit.register(self._at_exit)
 
     def start(self) -> None:
@@ -138,7 +138,7 @@ class NodeProcessState:
             except Exception:  # noqa: BLE001  # the other hooks shall run too
                 sys.stderr.write(f"signal_shutdown hook error[{traceback.format_exc()}]\n")
 
-    def _asked_to_end(self, reason: str) -> None:
+    def _on_node_shutdown(self, reason: str) -> None:
         self.end(f"external shutdown request from [{reason}]")
 
     def _at_exit(self) -> None:

@@ -86,8 +86,8 @@ class Transformer:
     ) -> bool:
         """Return whether there is a transform from one time to another."""
         target, source, fixed = _plain(target_frame, source_frame, fixed_frame)
-        asked = (target, target_time, source, source_time, fixed)
-        return bool(self._buffer.can_transform_full(*asked))
+        frames = (target, target_time, source, source_time, fixed)
+        return bool(self._buffer.can_transform_full(*frames))
 
     def waitForTransform(
         self,
@@ -104,8 +104,8 @@ class Transformer:
         """
         del polling_sleep_duration
         target, source = _plain(target_frame, source_frame)
-        asked = (target, source, time, timeout, True)
-        self._demand(lambda: self._buffer.can_transform(*asked), target, source)
+        frames = (target, source, time, timeout, True)
+        self._demand(lambda: self._buffer.can_transform(*frames), target, source)
 
     def waitForTransformFull(
         self,
@@ -124,8 +124,8 @@ class Transformer:
         """
         del polling_sleep_duration
         target, source, fixed = _plain(target_frame, source_frame, fixed_frame)
-        asked = (target, target_time, source, source_time, fixed, timeout, True)
-        self._demand(lambda: self._buffer.can_transform_full(*asked), target, source)
+        frames = (target, target_time, source, source_time, fixed, timeout, True)
+        self._demand(lambda: self._buffer.can_transform_full(*frames), target, source)
 
     def _demand(self, wait: Callable[[], tuple[bool, str]], target: str, source: str) -> None:
         if not self._using_dedicated_thread:
@@ -194,8 +194,8 @@ class Transformer:
             TransformException: There is none; its class says why.
         """
         target, source, fixed = _plain(target_frame, source_frame, fixed_frame)
-        asked = (target, target_time, source, source_time, fixed)
-        return _pair(self._buffer.lookup_transform_full(*asked))
+        frames = (target, target_time, source, source_time, fixed)
+        return _pair(self._buffer.lookup_transform_full(*frames))
 
     def lookupTwist(
         self, tracking_frame: str, observation_frame: str, time: Any, averaging_interval: Any

@@ -79,9 +79,9 @@ class Buffer(BufferCore, BufferInterface):
 
         See `lookup_transform`.
         """
-        asked = (target_frame, target_time, source_frame, source_time, fixed_frame)
-        self.can_transform_full(*asked, timeout)
-        return self.lookup_transform_full_core(*asked)
+        frames = (target_frame, target_time, source_frame, source_time, fixed_frame)
+        self.can_transform_full(*frames, timeout)
+        return self.lookup_transform_full_core(*frames)
 
     def can_transform(
         self,
@@ -97,10 +97,10 @@ class Buffer(BufferCore, BufferInterface):
             Whether; or with `return_debug_tuple` that, and why not.
         """
 
-        def ask() -> Answer:
+        def read() -> Answer:
             return self.can_transform_core(target_frame, source_frame, time)
 
-        answer = self._wait(ask, timeout)
+        answer = self._wait(read, timeout)
         return answer if return_debug_tuple else answer[0]
 
     def can_transform_full(
@@ -115,17 +115,17 @@ class Buffer(BufferCore, BufferInterface):
     ) -> Any:
         """Return whether there is a transform from one time to another; see `can_transform`."""
 
-        def ask() -> Answer:
+        def read() -> Answer:
             return self.can_transform_full_core(
                 target_frame, target_time, source_frame, source_time, fixed_frame
             )
 
-        answer = self._wait(ask, timeout)
+        answer = self._wait(read, timeout)
         return answer if return_debug_tuple else answer[0]
 
-    def _wait(self, ask: Callable[[], Answer], timeout: Any) -> Answer:
+    def _wait(self, read: Callable[[], Answer], timeout: Any) -> Answer:
         """Call a function again whenever something changed, until the timeout."""
-        answer = ask()
+        answer = read()
         if answer[0] or not timeout > _ZERO:
             return answer
         begin = get_rostime()
@@ -136,5 +136,5 @@ class Buffer(BufferCore, BufferInterface):
                 break
             if self._news.wait(_LOOK_S):
                 self._news.clear()
-            answer = ask()
+            answer = read()
         return answer

@@ -59,7 +59,7 @@ class BufferClient(BufferInterface):
         Raises:
             TransformException: There is none; its class says why.
         """
-        return self._ask(
+        return self._look_up(
             target_frame=target_frame,
             source_frame=source_frame,
             source_time=time,
@@ -81,7 +81,7 @@ class BufferClient(BufferInterface):
         Raises:
             TransformException: There is none; its class says why.
         """
-        return self._ask(
+        return self._look_up(
             target_frame=target_frame,
             source_frame=source_frame,
             source_time=source_time,
@@ -119,7 +119,7 @@ class BufferClient(BufferInterface):
             return False
         return True
 
-    def _ask(self, **fields: Any) -> Any:
+    def _look_up(self, **fields: Any) -> Any:
         goal = tf2_msgs.msg.LookupTransformGoal(**fields)
         if not goal.target_time:
             goal.target_time = Time(0)

@@ -173,10 +173,10 @@ class Updater(DiagnosticTaskVector):
 
     def broadcast(self, lvl: int, msg: str) -> None:
         """Publish one level and message as the status of all tasks."""
-        self.publish([self._said(task, lvl, msg) for task in self.tasks])
+        self.publish([self._as_status(task, lvl, msg) for task in self.tasks])
 
     @staticmethod
-    def _said(task: NamedTask, level: int, message: str) -> Any:
+    def _as_status(task: NamedTask, level: int, message: str) -> Any:
         return DiagnosticStatusWrapper(name=task.name, level=level, message=message)
 
     def publish(self, msg: Any) -> None:
@@ -190,4 +190,4 @@ class Updater(DiagnosticTaskVector):
 
     def addedTaskCallback(self, task: NamedTask) -> None:  # noqa: N802  # ROS's name
         """Publish that the task begins."""
-        self.publish(self._said(task, OK, "Node starting up"))
+        self.publish(self._as_status(task, OK, "Node starting up"))

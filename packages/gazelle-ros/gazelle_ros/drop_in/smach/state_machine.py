@@ -40,7 +40,7 @@ class StateMachine(Container):
         self._constants: dict[str, Mapping[str, Any]] = {}
         self._initial: str | None = None
         self._label: str | None = None
-        self._asked: State | None = None  # to end early, and may not have done so yet
+        self._preempted: State | None = None  # to end early, and may not have done so yet
         self._auto: tuple[str, Several[str]] | None = None
         self._is_running = False
         self._changing = threading.RLock()
@@ -148,7 +148,7 @@ class StateMachine(Container):
             logerr(str(error))
             return None
         with self._changing:
-            self._label, self._asked = self._initial, None
+            self._label, self._preempted = self._initial, None
         self._take_inputs(parent_ud)
         self._is_running = True
         loginfo(
@@ -187,7 +187,7 @@ class StateMachine(Container):
             return None
         with self._changing:
             self._label = None
-            if self._asked is not None and not self._asked.preempt_requested():
+            if self._preempted is not None and not self._preempted.preempt_requested():
                 self.service_preempt()
         loginfo(f"State machine terminating '{label}':'{outcome}':'{target}'")
         self.call_termination_cbs([label], target)
@@ -204,13 +204,13 @@ class StateMachine(Container):
         """Request a state to end early if the machine is requested, unless one has ended since."""
         if not self._preempt_requested:
             return
-        if self._asked is not None and not self._asked.preempt_requested():
+        if self._preempted is not None and not self._preempted.preempt_requested():
             self.service_preempt()
-            self._asked = None
-        elif self._asked is not state:
-            if self._asked is not None:
-                self._asked.recall_preempt()
-            self._asked = state
+            self._preempted = None
+        elif self._preempted is not state:
+            if self._preempted is not None:
+                self._preempted.recall_preempt()
+            self._preempted = state
             state.request_preempt()
 
     def get_children(self) -> Mapping[str, State]:

@@ -36,11 +36,11 @@ class _Proxy:
             f"{server}/smach/container_structure", structure, queue_size=10
         )
         self._commands = rospy.Subscriber(f"{server}/smach/container_init", start, self._command)
-        container.register_start_cb(lambda *_: self.tell("Start"))
-        container.register_transition_cb(lambda *_: self.tell("Transition"))
-        container.register_termination_cb(lambda *_: self.tell("Termination"))
+        container.register_start_cb(lambda *_: self.publish_status("Start"))
+        container.register_transition_cb(lambda *_: self.publish_status("Transition"))
+        container.register_termination_cb(lambda *_: self.publish_status("Termination"))
 
-    def tell(self, info: str) -> None:
+    def publish_status(self, info: str) -> None:
         """Publish which states are active, and the structure."""
         inside, now = self._container, std_msgs.msg.Header(stamp=rospy.get_rostime())
         edges = [[str(name) for name in edge] for edge in inside.get_internal_edges()]
@@ -78,7 +78,7 @@ class _Proxy:
             rospy.logerr(f"'{self._path}' has no states {message.initial_states}")
             return
         self._container.set_initial_state(message.initial_states, UserData())
-        self.tell("REMOTE_INIT")
+        self.publish_status("REMOTE_INIT")
 
     def stop(self) -> None:
         """Close the topics."""
@@ -126,12 +126,12 @@ class IntrospectionServer:
         for label, child in container.get_children().items():
             if isinstance(child, Container):
                 self._add(child, f"{path.rstrip('/')}/{label}")
-        proxy.tell("Initial state")
+        proxy.publish_status("Initial state")
 
     def _repeat(self) -> None:
         while not self._stopped.wait(_PERIOD_S) and not rospy.is_shutdown():
             for proxy in self._proxies:
-                proxy.tell("HEARTBEAT")
+                proxy.publish_status("HEARTBEAT")
 
     def stop(self) -> None:
         """Stop the server."""
