@@ -52,7 +52,7 @@ def check_launch(
         lines.append(f"  {_label(node):<{width}}  {state}")
         if problem is not None:
             problems.append(problem)
-    problems += LaunchedFiles(plan, packages, engine).check()
+    problems += LaunchedFiles(plan, engine).check()
     return list(dict.fromkeys(lines)), problems
 
 

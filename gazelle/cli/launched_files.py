@@ -21,7 +21,6 @@ from gazelle.stage.bridge import server as stageros
 from gazelle_ros import names
 from gazelle_ros.base.bundled_packages import published
 from gazelle_ros.builtin.arguments import parse_arguments
-from gazelle_ros.launch import Packages
 from gazelle_ros.launch.plan import (
     LaunchParameter,
     LaunchPlan,
@@ -29,11 +28,11 @@ from gazelle_ros.launch.plan import (
     ParameterCommand,
     SourceLocation,
 )
-from gazelle_ros.launch.programs import node_arguments, parameter_value
+from gazelle_ros.launch.programs import node_arguments
 
 _SERVERS = {"gzserver", "gazebo", "debug", "perf"}
 _DESCRIPTION = "/robot_description"
-_XACRO = {"xacro", "xacro.py"}
+_READERS = {"xacro", "xacro.py", "cat"}
 
 _Parse = Callable[[Sequence[str]], argparse.Namespace]
 
@@ -43,12 +42,11 @@ class LaunchedFiles:
 
     Args:
         plan: Content of the launch file.
-        packages: Runs the commands of parameters.
         engine: Builds worlds and spawned models; None reads them only.
     """
 
-    def __init__(self, plan: LaunchPlan, packages: Packages, engine: str | None) -> None:
-        self._plan, self._packages, self._engine = plan, packages, engine
+    def __init__(self, plan: LaunchPlan, engine: str | None) -> None:
+        self._plan, self._engine = plan, engine
         self._checked: set[tuple[str, str]] = set()
 
     def check(self) -> list[Problem]:
@@ -90,11 +88,11 @@ class LaunchedFiles:
     def _check_parameter(self, parameter: LaunchParameter, engine: str | None) -> list[Problem]:
         if parameter.file is not None:
             return self._check_file(parameter.file, engine)
-        expanded = _xacro_of(parameter)
+        expanded = _source_of(parameter)
         if expanded is not None:
             return self._check_file(expanded[0], engine, expanded[1])
-        text = parameter_value(parameter, self._packages)
-        name = f"parameter '{parameter.name}'"
+        text, name = parameter.value, f"parameter '{parameter.name}'"
+        # Other commands are run by a launch only: a check executes nothing that a file names.
         if not isinstance(text, str) or not self._is_new(name, ""):
             return []
         return check_text(text, name, engine)
@@ -113,8 +111,8 @@ class LaunchedFiles:
         return len(self._checked) > before
 
 
-def _xacro_of(parameter: LaunchParameter) -> tuple[str, dict[str, str]] | None:
-    """Return the file and arguments of a xacro command; its findings name the file's lines."""
+def _source_of(parameter: LaunchParameter) -> tuple[str, dict[str, str]] | None:
+    """Return the file and arguments of a command ``xacro`` or ``cat``; findings name its lines."""
     if not isinstance(parameter.value, ParameterCommand):
         return None
     try:
@@ -123,7 +121,7 @@ def _xacro_of(parameter: LaunchParameter) -> tuple[str, dict[str, str]] | None:
         return None
     if words[:2] == ["rosrun", "xacro"]:
         words = words[2:]
-    if not words or Path(words[0]).name not in _XACRO:
+    if not words or Path(words[0]).name not in _READERS:
         return None
     plain, arguments = names.split_arguments(words[1:])
     files = [each for each in plain if not each.startswith("-")]

@@ -176,11 +176,18 @@ def test_a_spawned_robot_is_checked_with_the_lines_of_its_file(cli, tmp_path, so
     assert f"package://none/{name}.stl" in found[0]["message"]
 
 
-def test_a_description_made_by_a_program_is_checked_as_text(cli, tmp_path):
+def test_a_description_that_cat_reads_is_checked_as_its_file(cli, tmp_path):
     robot = tmp_path / "robot.urdf"
     robot.write_text('<robot name="r">\n<link/>\n</robot>')
     found = check_nodes(cli, tmp_path, f'<param name="robot_description" command="cat {robot}"/>')
-    assert places(found, tmp_path) == [("parameter '/robot_description'", 2)]
+    assert places(found, tmp_path) == [("robot.urdf", 2)]
+
+
+def test_a_check_executes_no_command(cli, tmp_path):
+    made = tmp_path / "made"
+    parameter = f'<param name="robot_description" command="touch {made}"/>'
+    assert check_nodes(cli, tmp_path, parameter) == []
+    assert not made.exists()
 
 
 def test_models_are_found_by_the_environment_of_their_node(cli, tmp_path):
