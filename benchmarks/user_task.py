@@ -7,7 +7,7 @@ import numpy as np
 
 import gazelle
 from gazelle import formats
-from gazelle.envs import BatchedTask, TaskVectorEnv, Verdict
+from gazelle.envs import BatchedTask, TaskOutcome, TaskVectorEnv
 from gazelle.simulation import ModelPlugin, TwistInput, register
 
 BOX = "<{0} name='{0}'><pose>{1}</pose><geometry><box><size>{2}</size></box></geometry></{0}>"
@@ -87,7 +87,7 @@ class Cruise(BatchedTask):
         self.cart.inputs["cmd_vel"].send(0.15 + 0.15 * actions[:, 0], 1.5 * actions[:, 1])
         self.sim.run(self.control_period)
         ranges = self._see(None)
-        return Verdict(ranges, np.ones(self.nworld), ranges.min(axis=1) < 0.25, {})
+        return TaskOutcome(ranges, np.ones(self.nworld), ranges.min(axis=1) < 0.25, {})
 
     def _state(self):
         return {"simulation": self.sim.snapshot()}

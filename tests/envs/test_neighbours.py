@@ -50,7 +50,7 @@ def crowded(tmp_path, monkeypatch, request):
     if request.param != "packages":
         monkeypatch.setenv("GAZEBO_MODEL_PATH", str(folder / "sim" / "models"))
     monkeypatch.chdir(folder)
-    monkeypatch.setattr(loader, "_reported", set())
+    monkeypatch.setattr(loader, "_warned", set())
     return folder
 
 

@@ -70,13 +70,14 @@ def test_an_interrupted_start_leaves_no_process(joined, monkeypatch, how):
     began = []
     tree = "import subprocess as s; s.Popen(['sleep', '100']); print(flush=True); s.os.wait()"
     other = subprocess.Popen(["sleep", "100"])
+    before = set(descendants())
     take_sigterm = sys.modules["ray"].init
 
     def init(**keywords):
         take_sigterm()
         began.append(subprocess.Popen([sys.executable, "-c", tree], stdout=subprocess.PIPE))
         began[0].stdout.readline()
-        began.extend(each for each in descendants() if each not in (began[0].pid, other.pid))
+        began.extend(set(descendants()) - before - {began[0].pid})
         signal.raise_signal(how)
 
     monkeypatch.setattr(sys.modules["ray"], "init", init)
