@@ -28,11 +28,11 @@ from gazelle_ros.launch.plan import (
     ParameterCommand,
     SourceLocation,
 )
-from gazelle_ros.launch.programs import node_arguments
+from gazelle_ros.launch.programs import XACRO, node_arguments
 
 _SERVERS = {"gzserver", "gazebo", "debug", "perf"}
 _DESCRIPTION = "/robot_description"
-_READERS = {"xacro", "xacro.py", "cat"}
+_READERS = {*XACRO, "cat"}
 
 _Parse = Callable[[Sequence[str]], argparse.Namespace]
 

@@ -27,7 +27,8 @@ _BUILTIN = (sys.executable, "-m", "gazelle_ros.builtin.start")
 _TERMINAL = (sys.executable, "-m", "gazelle_ros.builtin.terminal")
 PYTHON = re.compile(r"(?:.*/)?python[\d.]*")
 """Names of the interpreter, which Python scripts have anyway."""
-_XACRO = {"xacro", "xacro.py"}
+XACRO = {"xacro", "xacro.py"}
+"""Names of xacro's program in commands of parameters."""
 _COMMAND_SECONDS = 120.0
 
 
@@ -198,7 +199,7 @@ def command_line(words: Sequence[str], packages: Packages) -> list[str]:
         if isinstance(found, Skipped):
             raise LaunchError(f"'{found.package}' is left out: {found.reason}")
         return [*found.command, *rest[2:]]
-    if Path(program).name in _XACRO:
+    if Path(program).name in XACRO:
         return [*_BUILTIN, "xacro", "xacro", *rest]
     path = Path(program)
     if path.is_absolute() and path.is_file() and is_python(path):
