@@ -33,7 +33,7 @@ _IMPEDANCE = (0.9, 0.9999, 0.001, 0.5, 2.0)
 
 # How many times stiffer friction is than the normal direction, or what is held creeps: in a
 # pyramid, and in a cone, where the share at first touch may be this, too. In a pyramid so much
-# makes wheels shake; in a cone it costs nothing (docs/explanation/physics.md, "What is held").
+# makes wheels shake; in a cone it costs nothing (docs/explanation/physics.md, "Creep of held contacts").
 _RATIO_IN_A_PYRAMID, _RATIO_IN_A_CONE = 100.0, 10_000.0
 _SHARE_IN_A_CONE = 0.99
 
