@@ -1,4 +1,4 @@
-"""The Gazebo door: start to first scan, state calls, real-time factor while all is published.
+"""A simulation on a ROS graph: start to first scan, state calls, real-time factor while all is published.
 
 A burger in turtlebot3_world at physics steps of 1 ms. Clients are Debian's real rospy where it is
 installed (python3-rospy and its messages), else Gazelle's. The goals are those of the project;
@@ -59,9 +59,9 @@ def main() -> None:
     print(f"turtlebot3_world with a burger, 1 ms steps; subscribers: {peer}")
     print(f"from command to first /scan      {first_scan(args.runs):8.2f} s     (goal under 1)")
     with Master(port=0, rosout=False) as master:
-        idle, door = costs(master.uri, args.seconds)
-        print(f"without a door                   {idle:8.1f} real-time factor")
-        print(f"door, nobody listening           {door:8.1f}   cost {100 * (idle / door - 1):.1f}%"
+        idle, server = costs(master.uri, args.seconds)
+        print(f"without a server                 {idle:8.1f} real-time factor")
+        print(f"server, no subscribers           {server:8.1f}   cost {100 * (idle / server - 1):.1f}%"
               " (goal under 5%)")  # fmt: skip
         print(f"a subscriber on each of {len(TOPICS)} topics {listened(master.uri, args.seconds):8.1f}"
               " real-time factor (goal over 10)")  # fmt: skip
@@ -134,9 +134,9 @@ def pace(sim: gazelle.Simulation, seconds: float) -> float:
 
 def listened(uri: str, seconds: float) -> float:
     """Return the real-time factor with a rospy subscriber on each topic."""
-    with world() as sim, serve_ros(sim, uri) as door, listeners(uri):
+    with world() as sim, serve_ros(sim, uri) as server, listeners(uri):
         deadline = time.monotonic() + 60.0
-        while not heard_everywhere(door.node) and time.monotonic() < deadline:
+        while not heard_everywhere(server.node) and time.monotonic() < deadline:
             sim.step(10)
             time.sleep(0.02)
         return pace(sim, seconds)
@@ -177,10 +177,10 @@ def state_calls(uri: str, seconds: float, *, paused: bool) -> float:
     request.model_state.model_name = "burger"
     place = request.model_state.pose  # between the pillars, not in one
     place.position.x, place.position.y, place.orientation.w = -2.0, -0.5, 1.0
-    with world() as sim, serve_ros(sim, uri) as door:
+    with world() as sim, serve_ros(sim, uri) as server:
         if paused:
             sim.pause()
-        thread = threading.Thread(target=door.run)
+        thread = threading.Thread(target=server.run)
         thread.start()
         with Node("caller", master_uri=uri, clock=WallClock()) as node:
             client = node.client("/gazebo/set_model_state", service, persistent=True)
@@ -189,7 +189,7 @@ def state_calls(uri: str, seconds: float, *, paused: bool) -> float:
                 client.call(request)
                 count += 1
             taken = time.perf_counter() - start
-        door.stop()
+        server.stop()
         thread.join()
     return count / taken
 

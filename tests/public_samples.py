@@ -187,11 +187,11 @@ class Samples:
         """A client of a world that is served, with a burger."""
         sim = self.stack.enter_context(Simulation("turtlebot3_stage_1", threads=1))
         sim.spawn("turtlebot3_burger", name="r1", namespace="/")
-        door = self.stack.enter_context(gazelle.serve_ros(sim, self.node.master_uri))
-        thread = threading.Thread(target=door.run)
+        server = self.stack.enter_context(gazelle.serve_ros(sim, self.node.master_uri))
+        thread = threading.Thread(target=server.run)
         thread.start()
         self.stack.callback(thread.join)
-        self.stack.callback(door.stop)
+        self.stack.callback(server.stop)
         return self.stack.enter_context(clients.Gazebo(self.node))
 
     @functools.cached_property

@@ -1,17 +1,21 @@
-"""Doors: a simulation on a ROS 1 graph, or the controllers of a robot (``gazelle.bridges.control``)."""
+"""Simulations on a ROS 1 graph, and the controllers of a robot (``gazelle.bridges.control``)."""
 
 from __future__ import annotations
 
+import warnings
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from gazelle.bridges.serving import RosDoor, refuse_twin, serve_ros
+    from gazelle.bridges.serving import RosServer, refuse_twin, serve_ros
 
-__all__ = ["RosDoor", "refuse_twin", "serve_ros"]
+__all__ = ["RosServer", "refuse_twin", "serve_ros"]
 
 
 def __getattr__(name: str) -> Any:
     # A robot of one's own needs no simulation, which takes a while to be imported.
+    if name == "RosDoor":
+        warnings.warn(DeprecationWarning("RosDoor is called RosServer now"), stacklevel=2)
+        name = "RosServer"
     if name not in __all__:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     from gazelle.bridges import serving

@@ -7,7 +7,7 @@ import socket
 import threading
 from typing import Self
 
-from gazelle.bridges.gazebo import GazeboDoor
+from gazelle.bridges.gazebo import GazeboInterface
 from gazelle.bridges.pacing import Pacer
 from gazelle.errors import RosError
 from gazelle.simulation import Simulation
@@ -18,7 +18,7 @@ from gazelle_ros.tools.graph import GraphInspector
 from gazelle_ros.tools.nodes import process_of
 
 
-class RosDoor(Closeable):
+class RosServer(Closeable):
     """A simulation on a ROS 1 graph; also a context manager.
 
     Attributes:
@@ -41,7 +41,9 @@ class RosDoor(Closeable):
         self._master = master
         self._pacer = Pacer(simulation)
         self._thread: threading.Thread | None = None
-        self.gazebo = GazeboDoor(simulation, node, world=world, monotonic_clock=monotonic_clock)
+        self.gazebo = GazeboInterface(
+            simulation, node, world=world, monotonic_clock=monotonic_clock
+        )
         node.on_shutdown.append(lambda _reason: self._pacer.stop())
 
     def run(self, seconds: float | None = None) -> None:
@@ -82,10 +84,10 @@ def serve_ros(
     host: str | None = None,
     world: int = 0,
     monotonic_clock: bool = False,
-) -> RosDoor:
+) -> RosServer:
     """Serve a simulation on a ROS 1 graph as Gazebo's ROS packages do.
 
-    The caller continues stepping it, or calls ``RosDoor.run``.
+    The caller continues stepping it, or calls ``RosServer.run``.
 
     Args:
         simulation: Runs.
@@ -101,7 +103,7 @@ def serve_ros(
     """
     node, master = join_graph(name, master_uri, host)
     try:
-        return RosDoor(simulation, node, master, world=world, monotonic_clock=monotonic_clock)
+        return RosServer(simulation, node, master, world=world, monotonic_clock=monotonic_clock)
     except BaseException:
         node.close()
         if master is not None:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from gazelle.errors import Error
 
 if TYPE_CHECKING:
-    from gazelle.bridges import RosDoor
+    from gazelle.bridges import RosServer
     from gazelle.simulation import Robot, Simulation
     from gazelle_ros.robot import JointTree
 
@@ -19,7 +19,7 @@ _NODE = "robot_state_publisher"
 
 
 @contextmanager
-def descriptions_beside(sim: Simulation, door: RosDoor) -> Iterator[None]:
+def descriptions_beside(sim: Simulation, server: RosServer) -> Iterator[None]:
     """Publish ``robot_description`` and the transforms of its links while the simulation runs.
 
     A launch file does this with ``robot_state_publisher``; a robot of ``--spawn`` has no launch
@@ -29,9 +29,9 @@ def descriptions_beside(sim: Simulation, door: RosDoor) -> Iterator[None]:
 
     Args:
         sim: Its robots.
-        door: The simulation on the graph.
+        server: The simulation on the graph.
     """
-    text = None if door.node.has_param(_PARAMETER) else _first_urdf(sim)
+    text = None if server.node.has_param(_PARAMETER) else _first_urdf(sim)
     joints = None if text is None else _joints(text)
     if joints is None:
         yield
@@ -39,8 +39,8 @@ def descriptions_beside(sim: Simulation, door: RosDoor) -> Iterator[None]:
     from gazelle_ros import Node
     from gazelle_ros.robot import RobotStatePublisher
 
-    door.node.set_param(_PARAMETER, text)
-    with Node(_NODE, master_uri=door.master_uri) as node:
+    server.node.set_param(_PARAMETER, text)
+    with Node(_NODE, master_uri=server.master_uri) as node:
         RobotStatePublisher(node, joints)
         yield
 

@@ -20,7 +20,7 @@ from gazelle_ros.base.child_processes import child_process
 from gazelle_ros.base.text_files import read_text
 
 if TYPE_CHECKING:
-    from gazelle.bridges import RosDoor
+    from gazelle.bridges import RosServer
     from gazelle.simulation import Robot, Simulation
 
 _CONTROLLERS = (
@@ -63,7 +63,7 @@ def start_requested_controllers(sim: Simulation, args: argparse.Namespace) -> No
 
 
 @contextmanager
-def moveit_beside(sim: Simulation, door: RosDoor, args: argparse.Namespace) -> Iterator[None]:
+def moveit_beside(sim: Simulation, server: RosServer, args: argparse.Namespace) -> Iterator[None]:
     """Run MoveIt's node beside the simulation, if requested.
 
     Raises:
@@ -73,9 +73,9 @@ def moveit_beside(sim: Simulation, door: RosDoor, args: argparse.Namespace) -> I
         yield
         return
     robot, package = _planned(sim)
-    door.node.set_param("/robot_description", _description(robot))
+    server.node.set_param("/robot_description", _description(robot))
     command = [sys.executable, "-m", "gazelle", "launch", package, "move_group.launch"]
-    environ = {**os.environ, "ROS_MASTER_URI": door.master_uri}
+    environ = {**os.environ, "ROS_MASTER_URI": server.master_uri}
     # The summary of its parameters would hide what this command prints; errors go to stderr.
     quiet = subprocess.DEVNULL
     with child_process(command, env=environ, stdout=quiet) as beside:

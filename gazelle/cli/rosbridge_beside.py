@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from gazelle_ros.base.argument_types import port_number
 
 if TYPE_CHECKING:
-    from gazelle.bridges import RosDoor
+    from gazelle.bridges import RosServer
     from gazelle.stage.bridge import StageServer
 
 _PORT = 9090
@@ -31,7 +31,7 @@ def add_rosbridge(parser: argparse.ArgumentParser) -> None:
 
 
 @contextmanager
-def rosbridge_beside(door: RosDoor | StageServer, args: argparse.Namespace) -> Iterator[None]:
+def rosbridge_beside(server: RosServer | StageServer, args: argparse.Namespace) -> Iterator[None]:
     """Run rosbridge and rosapi beside the simulation, if requested.
 
     Raises:
@@ -44,6 +44,6 @@ def rosbridge_beside(door: RosDoor | StageServer, args: argparse.Namespace) -> I
     from gazelle_ros.rosbridge.settings import settings_from
 
     settings = settings_from({"port": args.rosbridge})
-    with bridge(settings, door.master_uri) as server:
-        sys.stdout.write(f"{listening_text(settings, server.port)}\n")
+    with bridge(settings, server.master_uri) as rosbridge:
+        sys.stdout.write(f"{listening_text(settings, rosbridge.port)}\n")
         yield

@@ -36,7 +36,7 @@ from gazelle_ros.base.argument_types import positive_float
 from gazelle_ros.base.output import say
 
 if TYPE_CHECKING:
-    from gazelle.bridges import RosDoor
+    from gazelle.bridges import RosServer
     from gazelle.description import World
     from gazelle.simulation import Simulation
     from gazelle.stage import StageWorld
@@ -261,27 +261,27 @@ def _serve(sim: Simulation, args: argparse.Namespace, page: str) -> int:
     if args.paused:
         sim.pause()
     if sim.extension(StageFleet) is not None:
-        with serve_stage(sim, rate=args.rate) as server, rosbridge_beside(server, args):
+        with serve_stage(sim, rate=args.rate) as stage, rosbridge_beside(stage, args):
             if sim.paused:
                 sys.stderr.write("paused; the service /gazelle/unpause starts it\n")
-            return _attend(sim, server, args, page)
+            return _attend(sim, stage, args, page)
     sim.physics.update_rate = (args.rate or 0.0) / sim.physics.time_step
     with (
-        serve_ros(sim) as door,
-        descriptions_beside(sim, door),
-        moveit_beside(sim, door, args),
-        rosbridge_beside(door, args),
+        serve_ros(sim) as server,
+        descriptions_beside(sim, server),
+        moveit_beside(sim, server, args),
+        rosbridge_beside(server, args),
     ):
-        return _attend(sim, door, args, page)
+        return _attend(sim, server, args, page)
 
 
 def _attend(
-    sim: Simulation, door: RosDoor | StageServer, args: argparse.Namespace, page: str
+    sim: Simulation, server: RosServer | StageServer, args: argparse.Namespace, page: str
 ) -> int:
-    say(f"ROS node {door.node.name} on {door.master_uri}\n{page}")
+    say(f"ROS node {server.node.name} on {server.master_uri}\n{page}")
     status = _Status(sim)
     try:
-        door.run(args.seconds)
+        server.run(args.seconds)
     finally:
         status.show(final=True)
     return 0

@@ -129,7 +129,7 @@ class PhysicsProperties:
         """Real-time factor of the file; None means as fast as possible.
 
         As in Gazebo classic it is the update rate times the time step, whatever
-        ``real_time_factor`` says, and an update rate of 0 does not hold anything back. A door
+        ``real_time_factor`` says, and an update rate of 0 does not hold anything back. A server
         that runs in real time gives it to ``Simulation.run`` as ``rate``; Python's own
         default is as fast as possible.
         """

@@ -6,7 +6,7 @@ import threading
 from types import SimpleNamespace
 
 import pytest
-from door_client import Client
+from graph_client import Client
 
 import gazelle
 from gazelle.bridges import serve_ros
@@ -18,9 +18,9 @@ def graph():
     """Yield a burger named r1 in stage 1, stepped by the test itself."""
     with Master(port=0, rosout=False) as master, gazelle.Simulation("turtlebot3_stage_1") as sim:
         sim.spawn("turtlebot3_burger", name="r1", namespace="/")
-        with serve_ros(sim, master.uri) as door:
+        with serve_ros(sim, master.uri) as server:
             client = Client(master.uri)
-            yield SimpleNamespace(sim=sim, door=door, master=master, client=client)
+            yield SimpleNamespace(sim=sim, server=server, master=master, client=client)
             client.node.close()
 
 
@@ -28,8 +28,8 @@ def graph():
 def running(graph):
     """Yield the same world, running in the background as fast as it can."""
     graph.sim.physics.update_rate = 0.0
-    thread = threading.Thread(target=graph.door.run)
+    thread = threading.Thread(target=graph.server.run)
     thread.start()
     yield graph
-    graph.door.stop()
+    graph.server.stop()
     thread.join()

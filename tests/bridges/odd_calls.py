@@ -1,6 +1,6 @@
 """Calls of Gazebo's services that cannot be done, and what it answers."""
 
-from door_client import BALL
+from graph_client import BALL
 
 FRAME = (
     "SpawnModel: reference reference_frame not found, did you forget to scope the link by model "

@@ -7,7 +7,7 @@ import threading
 import time
 from types import SimpleNamespace
 
-from door_client import Client
+from graph_client import Client
 
 import gazelle
 from gazelle import formats
@@ -31,14 +31,14 @@ def running(*models, parameters=()):
         client = Client(master.uri)
         for name, value in dict(parameters).items():
             client.node.set_param(name, value)
-        with serve_ros(sim, master.uri) as door:
-            thread = threading.Thread(target=door.run)
+        with serve_ros(sim, master.uri) as server:
+            thread = threading.Thread(target=server.run)
             thread.start()
             try:
                 yield SimpleNamespace(sim=sim, client=client)
             finally:
                 client.node.close()
-                door.stop()
+                server.stop()
                 thread.join()
 
 

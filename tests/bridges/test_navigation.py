@@ -47,11 +47,11 @@ def office(request):
     with Master(port=0, rosout=False) as master, gazelle.Simulation("office", request.param) as sim:
         robot = sim.spawn("courier", namespace="/")
         sim.physics.update_rate = 0.0
-        with serve_ros(sim, master.uri) as door, Node("asker", master_uri=master.uri) as node:
-            thread = threading.Thread(target=door.run)
+        with serve_ros(sim, master.uri) as server, Node("asker", master_uri=master.uri) as node:
+            thread = threading.Thread(target=server.run)
             thread.start()
             yield SimpleNamespace(robot=robot, node=node)
-            door.stop()
+            server.stop()
             thread.join()
 
 

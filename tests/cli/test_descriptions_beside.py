@@ -40,9 +40,9 @@ def test_the_frames_of_a_spawned_robot_hang_together(master, node, world):
     tree = received_frames(node)
     with gazelle.Simulation(world, "planar") as sim:
         sim.spawn(BURGER, pose=gazelle.Pose(-2.0, -0.5))
-        with serve_ros(sim, master.uri) as door, descriptions_beside(sim, door):
+        with serve_ros(sim, master.uri) as server, descriptions_beside(sim, server):
             assert node.get_param("/robot_description").startswith("<?xml")
-            door.start()
+            server.start()
             until(lambda: tree.has("base_scan") and tree.has("odom"))
             until(lambda: tree.lookup("odom", "base_scan").translation[2] > 0.1)
 
@@ -51,7 +51,7 @@ def test_a_description_that_is_there_is_left_alone(master, node):
     node.set_param("/robot_description", "<robot name='mine'/>")
     with gazelle.Simulation("empty", "planar") as sim:
         sim.spawn(BURGER)
-        with serve_ros(sim, master.uri) as door, descriptions_beside(sim, door):
+        with serve_ros(sim, master.uri) as server, descriptions_beside(sim, server):
             assert node.get_param("/robot_description") == "<robot name='mine'/>"
             topics = dict(node.master.published_topics())
             assert "/tf_static" not in topics
@@ -61,8 +61,8 @@ def test_a_description_that_is_there_is_left_alone(master, node):
 def test_worlds_without_robots_of_urdf_files_have_no_description(master, node, world):
     with (
         gazelle.Simulation(world, "planar") as sim,
-        serve_ros(sim, master.uri) as door,
-        descriptions_beside(sim, door),
+        serve_ros(sim, master.uri) as server,
+        descriptions_beside(sim, server),
     ):
         assert not node.has_param("/robot_description")
 
@@ -71,6 +71,6 @@ def test_a_second_robot_keeps_its_frames_to_itself(master, node):
     with gazelle.Simulation("empty", "planar") as sim:
         sim.spawn(BURGER)
         sim.spawn(BURGER, name="second", pose=gazelle.Pose(1.0), namespace="/second")
-        with serve_ros(sim, master.uri) as door, descriptions_beside(sim, door):
+        with serve_ros(sim, master.uri) as server, descriptions_beside(sim, server):
             assert node.has_param("/robot_description")
             assert not node.has_param("/second/robot_description")

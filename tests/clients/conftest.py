@@ -18,10 +18,10 @@ def graph():
     """Run stage 1 with a burger, in real time."""
     with Master(port=0, rosout=False) as master, gazelle.Simulation("turtlebot3_stage_1") as sim:
         sim.spawn("turtlebot3_burger", name="r1", namespace="/")
-        with serve_ros(sim, master.uri) as door:
-            thread = threading.Thread(target=door.run)
+        with serve_ros(sim, master.uri) as server:
+            thread = threading.Thread(target=server.run)
             thread.start()
             with Gazebo(master_uri=master.uri, timeout=60.0) as gazebo:
                 yield SimpleNamespace(sim=sim, master=master, gazebo=gazebo)
-            door.stop()
+            server.stop()
             thread.join()

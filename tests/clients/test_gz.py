@@ -18,11 +18,11 @@ def sim(monkeypatch):
     with Master(port=0, rosout=False) as master, gazelle.Simulation("turtlebot3_stage_1") as made:
         made.spawn("turtlebot3_burger", name="r1", namespace="/")
         monkeypatch.setenv("ROS_MASTER_URI", master.uri)
-        with serve_ros(made, master.uri) as door:
-            running = threading.Thread(target=door.run)
+        with serve_ros(made, master.uri) as server:
+            running = threading.Thread(target=server.run)
             running.start()
             yield made
-            door.stop()
+            server.stop()
             running.join()
 
 

@@ -83,7 +83,7 @@ def test_each_has_gains_and_limits_of_its_own_namespace_on_a_graph():
     }
     urdf = text(("/body", "shoulder"), ("/head", "elbow"))
     with robot_graph(urdf, parameters=parameters, namespace="/body", start=False) as graph:
-        head = RobotGraph(graph.node, graph.sim, graph.door, "/head")
+        head = RobotGraph(graph.node, graph.sim, graph.server, "/head")
         for each in (graph, head):
             assert each.call("load_controller", name="hold")
             assert each.switch(["hold"])

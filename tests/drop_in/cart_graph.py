@@ -34,8 +34,8 @@ def cart_graph(space="/cartpole_v0"):
         load_parameters(node, "config/cartpole_control.yaml", package="cartpole_description")
         patch.setenv("ROS_MASTER_URI", master.uri)
         patch.setattr(sys, "argv", ["train"])
-        with serve_ros(sim, master.uri) as door, ros.install():
-            door.start()
+        with serve_ros(sim, master.uri) as server, ros.install():
+            server.start()
             client.reset()
             rospy = importlib.import_module("rospy")
             rospy.init_node("train", disable_signals=True)

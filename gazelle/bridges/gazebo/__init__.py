@@ -1,5 +1,5 @@
 """ROS interface of gazebo_ros_pkgs: services, topics, parameters, the clock."""
 
-from gazelle.bridges.gazebo.door import GazeboDoor
+from gazelle.bridges.gazebo.interface import GazeboInterface
 
-__all__ = ["GazeboDoor"]
+__all__ = ["GazeboInterface"]

@@ -11,7 +11,7 @@ from functools import partial
 from pathlib import Path
 
 from gazelle import assets
-from gazelle.bridges.serving import RosDoor, refuse_twin
+from gazelle.bridges.serving import RosServer, refuse_twin
 from gazelle.errors import ResolveError, SimulationWarning
 from gazelle.simulation import Simulation
 from gazelle_ros import names
@@ -47,15 +47,15 @@ def main(arguments: Sequence[str]) -> int:
             sim.load_plugin(plugin)
         if options.paused:
             sim.pause()
-        door = RosDoor(
+        server = RosServer(
             sim,
             node,
             None,
             world=0,
             monotonic_clock=bool(node.get_param("~monotonic_clock", False)),
         )
-        with door, stopping() as stop:
-            _run(door, stop, options.iterations * sim.physics.time_step or None)
+        with server, stopping() as stop:
+            _run(server, stop, options.iterations * sim.physics.time_step or None)
     return 0
 
 
@@ -66,17 +66,17 @@ def _simulation(options: argparse.Namespace, namespace: str) -> Simulation:
     return Simulation(find_world(options.world), seed=options.seed, namespace=namespace.rstrip("/"))
 
 
-def _run(door: RosDoor, stop: threading.Event, seconds: float | None) -> None:
+def _run(server: RosServer, stop: threading.Event, seconds: float | None) -> None:
     """Run until a signal, which a thread hands on."""
 
     def wait() -> None:
         stop.wait()
-        door.stop()
+        server.stop()
 
     waiter = threading.Thread(target=wait, name="gzserver-end", daemon=True)
     waiter.start()
     try:
-        door.run(seconds)
+        server.run(seconds)
     finally:
         stop.set()
         waiter.join()

@@ -26,7 +26,7 @@ class ClockPublisher(BasePlugin):
     """Publishes ``/clock`` while it has subscribers.
 
     Args:
-        context: Of the door.
+        context: Of the server.
         rate: At most [Hz]; 0 means every step.
     """
 

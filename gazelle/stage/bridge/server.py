@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 from gazelle.simulation import Simulation
 from gazelle.stage import stage_of
-from gazelle.stage.bridge.door import StageDoor
+from gazelle.stage.bridge.interface import StageInterface
 from gazelle_ros.base.interrupts import stopping
 from gazelle_ros.builtin.arguments import parse_arguments
 
@@ -23,25 +23,25 @@ def main(arguments: Sequence[str]) -> int:
     # The node comes first: what the world warns of while it is read goes to /rosout, too.
     with found.start() as node, Simulation(options.world, "planar") as sim:
         speedup = stage_of(sim).description.speedup
-        door = StageDoor(
+        interface = StageInterface(
             sim, node, rate=speedup if speedup > 0.0 else None, model_names=options.model_names
         )
-        with door, stopping() as stop:
-            _run(door, stop)
+        with interface, stopping() as stop:
+            _run(interface, stop)
     return 0
 
 
-def _run(door: StageDoor, stop: threading.Event) -> None:
+def _run(interface: StageInterface, stop: threading.Event) -> None:
     """Run until a signal, which a thread hands on."""
 
     def wait() -> None:
         stop.wait()
-        door.stop()
+        interface.stop()
 
     waiter = threading.Thread(target=wait, name="stageros-end", daemon=True)
     waiter.start()
     try:
-        door.run()
+        interface.run()
     finally:
         stop.set()
         waiter.join()

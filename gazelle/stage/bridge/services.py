@@ -22,8 +22,8 @@ Answer = dict[str, Any]
 _MOST_STEPS = 10_000_000
 
 
-class Door(Protocol):
-    """Interface of the door that the services need."""
+class StageClock(Protocol):
+    """Clock and topics, as the services command them."""
 
     rate: float | None
 
@@ -43,12 +43,14 @@ class Services:
     Args:
         simulation: Runs.
         node: On the graph.
-        door: Publishes.
+        interface: Publishes.
         world: Which world of a batch the graph commands.
     """
 
-    def __init__(self, simulation: Simulation, node: Node, door: Door, world: int) -> None:
-        self._simulation, self._door, self._world = simulation, door, world
+    def __init__(
+        self, simulation: Simulation, node: Node, interface: StageClock, world: int
+    ) -> None:
+        self._simulation, self._interface, self._world = simulation, interface, world
         self._stage = stage_of(simulation)
         self._servers = []
         handlers: tuple[tuple[str, type[ServiceDefinition], Callable[[Any], Answer]], ...] = (
@@ -77,13 +79,13 @@ class Services:
         Time continues.
         """
         self._stage.reset_positions(np.array([self._world]))
-        self._door.publish()
+        self._interface.publish()
         return {}
 
     def reset(self, _request: std_srvs.srv.EmptyRequest) -> Answer:
         """Reset everything, time too."""
-        self._door.rewind()
-        self._door.publish()
+        self._interface.rewind()
+        self._interface.publish()
         return {}
 
     def pause(self, _request: std_srvs.srv.EmptyRequest) -> Answer:
@@ -106,7 +108,7 @@ class Services:
         return self._done("Step: done")
 
     def _done(self, text: str, *, success: bool = True) -> Answer:
-        return {"success": success, "status_message": text, "time": self._door.now()}
+        return {"success": success, "status_message": text, "time": self._interface.now()}
 
     def set_pose(self, request: gazelle_msgs.srv.SetPoseRequest) -> Answer:
         """Set the pose of a robot, by its name in the file or its prefix ``robot_N``."""
@@ -119,7 +121,7 @@ class Services:
         except SimulationError as error:
             return {"success": False, "status_message": f"SetPose: {error}"}
         self._stage.set_pose_of(index, where, np.array([self._world]))
-        self._door.publish()
+        self._interface.publish()
         return {"success": True, "status_message": "SetPose: done"}
 
     def _find(self, name: str) -> int:
@@ -138,7 +140,7 @@ class Services:
         if rate is None:
             said = f"expected {ACCEPTED}, not '{request.real_time_factor}'"
             return {"success": False, "status_message": f"SetRealTimeFactor: {said}"}
-        self._door.rate = rate if math.isfinite(rate) else None
+        self._interface.rate = rate if math.isfinite(rate) else None
         return {"success": True, "status_message": "SetRealTimeFactor: done"}
 
     def close(self) -> None:

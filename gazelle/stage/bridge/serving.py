@@ -5,7 +5,7 @@ from __future__ import annotations
 from gazelle.bridges.serving import join_graph
 from gazelle.simulation import Simulation
 from gazelle.stage import stage_of
-from gazelle.stage.bridge.door import StageDoor
+from gazelle.stage.bridge.interface import StageInterface
 from gazelle_ros import Master, Node
 from gazelle_ros.base.closing import Closeable
 
@@ -14,29 +14,29 @@ class StageServer(Closeable):
     """A Stage world on a ROS 1 graph, and the node and master made for it.
 
     Attributes:
-        door: The topics and services.
+        interface: The topics and services.
         node: Called ``stageros``.
         master_uri: Of the master that it is on.
     """
 
     def __init__(
-        self, door: StageDoor, node: Node, master: Master | None, *, owned: bool = True
+        self, interface: StageInterface, node: Node, master: Master | None, *, owned: bool = True
     ) -> None:
-        self.door, self.node = door, node
+        self.interface, self.node = interface, node
         self.master_uri = node.master_uri
         self._master, self._owned = master, owned
 
     def run(self, seconds: float | None = None) -> None:
-        """Run the world; see ``StageDoor.run``."""
-        self.door.run(seconds)
+        """Run the world; see ``StageInterface.run``."""
+        self.interface.run(seconds)
 
     def stop(self) -> None:
         """Stop ``run``; from any thread."""
-        self.door.stop()
+        self.interface.stop()
 
     def close(self) -> None:
         """Leave the graph; stop the node and the master if they were started here."""
-        self.door.close()
+        self.interface.close()
         if self._owned:
             self.node.close()
         if self._master is not None:
@@ -73,7 +73,7 @@ def serve_stage(
     """
     node, master = (on, None) if isinstance(on, Node) else join_graph(name, on, host)
     try:
-        door = StageDoor(
+        interface = StageInterface(
             simulation,
             node,
             world=world,
@@ -86,7 +86,7 @@ def serve_stage(
         if master is not None:
             master.close()
         raise
-    return StageServer(door, node, master, owned=node is not on)
+    return StageServer(interface, node, master, owned=node is not on)
 
 
 def _pace(speedup: float) -> float | None:

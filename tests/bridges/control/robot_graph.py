@@ -14,9 +14,9 @@ from gazelle_ros import Master, Node
 class RobotGraph(ControlGraph):
     """The same of a robot that is simulated."""
 
-    def __init__(self, node, sim, door, namespace):
+    def __init__(self, node, sim, server, namespace):
         super().__init__(node, SimpleNamespace(namespace=namespace), None)
-        self.sim, self.door = sim, door
+        self.sim, self.server = sim, server
 
 
 @contextlib.contextmanager
@@ -31,7 +31,7 @@ def robot_graph(*texts, parameters=(), namespace="/arm", world=None, start=True)
             client.set_param(name, value)
         for text in texts:
             sim.spawn(gazelle.formats.load_model_string(text))
-        with serve_ros(sim, master.uri) as door:
+        with serve_ros(sim, master.uri) as server:
             if start:
-                door.start()
-            yield RobotGraph(client, sim, door, namespace)
+                server.start()
+            yield RobotGraph(client, sim, server, namespace)

@@ -131,7 +131,7 @@ def test_robots_in_one_world_have_managers_of_their_own():
     )
     with robot_graph(left, right, namespace="/left") as graph:
         graph.spawn("push", EFFORT, joint="elbow")
-        other = RobotGraph(graph.node, graph.sim, graph.door, "/right")
+        other = RobotGraph(graph.node, graph.sim, graph.server, "/right")
         assert graph.states == {"push": "running"}
         assert other.states == {}
 

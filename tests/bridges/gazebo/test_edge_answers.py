@@ -3,7 +3,7 @@
 import math
 
 import pytest
-from door_client import model_state
+from graph_client import model_state
 from odd_calls import ODD, kind_of
 
 from gazelle_ros import load_message

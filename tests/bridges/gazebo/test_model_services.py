@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from door_client import BALL, model_state, pose
+from graph_client import BALL, model_state, pose
 from ros.graph import until
 
 from gazelle_ros import load_message

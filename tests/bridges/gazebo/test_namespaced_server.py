@@ -5,11 +5,11 @@ from __future__ import annotations
 import threading
 
 import pytest
-from door_client import Client
+from graph_client import Client
 
 import gazelle
 from gazelle import formats
-from gazelle.bridges.serving import RosDoor
+from gazelle.bridges.serving import RosServer
 from gazelle_ros import Master, Node
 
 PLANAR = "<plugin name='p' filename='libgazebo_ros_planar_move.so'>{}</plugin>"
@@ -34,13 +34,13 @@ def server():
     world = formats.load_string(WORLD.format("wall"))
     with Master(port=0, rosout=False) as master, gazelle.Simulation(world, namespace="/car") as sim:
         node = Node("gazebo", namespace="/car", master_uri=master.uri)
-        with RosDoor(sim, node, None, world=0, monotonic_clock=False) as door:
-            thread = threading.Thread(target=door.run)
+        with RosServer(sim, node, None, world=0, monotonic_clock=False) as server:
+            thread = threading.Thread(target=server.run)
             thread.start()
             client = Client(master.uri)
             yield client, node
             client.node.close()
-            door.stop()
+            server.stop()
             thread.join()
 
 

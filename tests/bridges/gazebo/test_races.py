@@ -10,7 +10,7 @@ import threading
 from pathlib import Path
 
 import pytest
-from door_client import BALL, Client, model_state, pose
+from graph_client import BALL, Client, model_state, pose
 
 CLIENTS = 8
 ALLOWED = (

@@ -138,10 +138,10 @@ def classes(tmp_path_factory):
 @pytest.fixture
 def background(graph):
     """Yield the world running in real time beside the test."""
-    thread = threading.Thread(target=graph.door.run)
+    thread = threading.Thread(target=graph.server.run)
     thread.start()
     yield graph
-    graph.door.stop()
+    graph.server.stop()
     thread.join()
 
 

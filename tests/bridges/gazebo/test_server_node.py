@@ -12,7 +12,7 @@ import time
 import warnings
 
 import pytest
-from door_client import Client
+from graph_client import Client
 from ports import free_port
 from ros.graph import until
 
@@ -137,8 +137,8 @@ def test_what_is_not_supported_is_a_line_and_no_more(master, world):
 def test_who_makes_the_time_does_not_listen_to_its_own_clock():
     with Master(port=0) as master, gazelle.Simulation("empty") as sim:
         master.api.parameters.set("/use_sim_time", True)  # as launch files do, before it starts
-        with serve_ros(sim, master.uri) as door:
-            _, subscribers, _ = door.node.master.system_state()
+        with serve_ros(sim, master.uri) as server:
+            _, subscribers, _ = server.node.master.system_state()
             assert "/clock" not in subscribers
 
 
@@ -200,8 +200,8 @@ def test_a_new_master_learns_that_time_is_simulated(monkeypatch):
     with Master(port=port, rosout=False) as first:
         uri = first.uri
         sim = gazelle.Simulation("empty")
-        door = serve_ros(sim, uri)
-    with sim, door, Master(port=port, rosout=False):
+        server = serve_ros(sim, uri)
+    with sim, server, Master(port=port, rosout=False):
         proxy = MasterProxy(uri, "/test")
         until(lambda: "/clock" in proxy.system_state()[0])
         until(lambda: proxy.has_param("/use_sim_time"))

@@ -111,7 +111,7 @@ def test_time_never_goes_back_for_graphs_that_cannot_bear_it():
     with (
         Master(port=0, rosout=False) as master,
         gazelle.Simulation("empty") as sim,
-        serve_ros(sim, master.uri, monotonic_clock=True) as door,
+        serve_ros(sim, master.uri, monotonic_clock=True) as server,
         Node("watcher", master_uri=master.uri, clock=WallClock()) as node,
     ):
         stamps = []
@@ -121,7 +121,7 @@ def test_time_never_goes_back_for_graphs_that_cannot_bear_it():
             sim.step(50)
             sim.reset()
         sim.step(10)
-        door.gazebo.publish()
+        server.gazebo.publish()
         # The last step before each reset was never told.
         until(lambda: stamps[-1].clock.to_sec() == pytest.approx(0.157))
         times = [each.clock.to_sec() for each in stamps]

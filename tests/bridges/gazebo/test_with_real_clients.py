@@ -1,4 +1,4 @@
-"""Debian's real rospy and tools beside the Gazebo door."""
+"""Debian's real rospy and tools beside the Gazebo server."""
 
 from __future__ import annotations
 
@@ -216,10 +216,10 @@ def classes(tmp_path_factory):
 @pytest.fixture
 def background(graph):
     """Yield the world running in real time beside the test."""
-    thread = threading.Thread(target=graph.door.run)
+    thread = threading.Thread(target=graph.server.run)
     thread.start()
     yield graph
-    graph.door.stop()
+    graph.server.stop()
     thread.join()
 
 

@@ -200,8 +200,8 @@ def simulated(place, *, controllers=True):
         fetch_robot.kitchen(*place) as (robot, cube),
     ):
         set_parameters(asking, controllers=controllers)
-        with serve_ros(robot.simulation, master.uri) as door:
-            door.start()
+        with serve_ros(robot.simulation, master.uri) as server:
+            server.start()
             with Node("/move_group", master_uri=master.uri) as node:
                 group = MoveGroupNode(node)
                 assert group.context.monitor.wait(60.0), group.context.monitor.unknown

@@ -3,7 +3,7 @@
 import contextlib
 
 import pytest
-from door_client import Client
+from graph_client import Client
 from kobuki_model import kobuki
 from models import GROUND, base, block, plugin
 from plugin_graph import first, running

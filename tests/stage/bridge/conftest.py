@@ -22,7 +22,7 @@ class Stage:
 
     def __init__(self, sim, server, master):
         self.sim, self.server, self.master = sim, server, master
-        self.door = server.door
+        self.interface = server.interface
         self.node = Node("client", master_uri=master.uri, clock=WallClock())
         self._publishers = {}
 

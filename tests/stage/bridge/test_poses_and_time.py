@@ -180,7 +180,7 @@ def test_a_world_may_begin_paused(stage, running):
 
 @pytest.mark.parametrize(("speedup", "rate"), [("4", 4.0), ("-1", None), ("0", None)])
 def test_the_files_speedup_is_the_pace(stage, speedup, rate):
-    assert stage(f"speedup {speedup} " + ROBOT).door.rate == rate
+    assert stage(f"speedup {speedup} " + ROBOT).interface.rate == rate
 
 
 def test_the_pace_is_kept(stage, running):

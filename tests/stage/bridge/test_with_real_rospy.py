@@ -1,4 +1,4 @@
-"""Debian's real rospy and tf2 beside Stage's door: rates, scans, commands, poses, transforms."""
+"""Debian's real rospy and tf2 beside Stage's server: rates, scans, commands, poses, transforms."""
 
 import math
 

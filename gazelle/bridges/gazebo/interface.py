@@ -34,7 +34,7 @@ _MOVES = {
 }
 
 
-class GazeboDoor(Closeable):
+class GazeboInterface(Closeable):
     """ROS interface of a simulation, as gazebo_ros_pkgs has it.
 
     Every service runs between two steps, also while the simulation is paused, and
@@ -43,12 +43,12 @@ class GazeboDoor(Closeable):
 
     Args:
         simulation: Runs, on whatever thread steps it.
-        node: Called ``gazebo``; it stays open when the door is closed.
+        node: Called ``gazebo``; it stays open when the server is closed.
         world: Which world of a batch the graph sees and commands.
         monotonic_clock: Let ``/clock`` continue at a reset instead of back to zero.
 
     Attributes:
-        context: What the parts of the door share.
+        context: What the parts of the server share.
     """
 
     def __init__(

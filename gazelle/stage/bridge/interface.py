@@ -25,7 +25,7 @@ _LOOK = 0.05  # longest wait without a look at pause, pace and end [s]
 _LATE = 0.1  # what is later than this is not caught up with in a burst [s]
 
 
-class StageDoor(Closeable):
+class StageInterface(Closeable):
     """ROS interface of a Stage world; also a context manager.
 
     Topics, frames, parameters and services are those of stage_ros (wiki.ros.org/stage_ros);
@@ -34,7 +34,7 @@ class StageDoor(Closeable):
 
     Args:
         simulation: Runs.
-        node: Called ``stageros``; it stays open when the door is closed.
+        node: Called ``stageros``; it stays open when the interface is closed.
         world: Which world of a batch the graph sees and commands.
         rate: Simulated seconds a wall second that ``run`` keeps to; None for as fast as
             possible.
