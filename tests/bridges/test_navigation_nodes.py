@@ -244,6 +244,48 @@ def test_a_plan_is_made_without_going(room, move_base):
     assert len(room.node.client("/move_base/make_plan", service).call(request, 30.0).plan.poses) > 5
 
 
+def test_a_global_planner_publishes_its_plan_and_potential(room):
+    values = {
+        **MOVE_BASE,
+        "base_global_planner": "global_planner/GlobalPlanner",
+        "GlobalPlanner": {"publish_scale": 50},
+    }
+    move_base = room.make("/move_base", MoveBaseNode, values)
+    room.nodes.append(move_base._node)
+    grids, plans = [], []
+    topic = "/move_base/GlobalPlanner"
+    room.node.subscribe(f"{topic}/potential", load_message("nav_msgs/OccupancyGrid"), grids.append)
+    room.node.subscribe(f"{topic}/plan", load_message("nav_msgs/Path"), plans.append)
+
+    def located():
+        room.tick()
+        move_base.cycle()
+        return move_base._started
+
+    until(located)
+    service = load_service("nav_msgs/GetPlan")
+    request = service._request_class()
+    request.start, request.goal = (
+        goal_message(1.01, 1.01).target_pose,
+        goal_message(3.01, 3.01).target_pose,
+    )
+
+    def shown():
+        found = room.node.client(f"{topic}/make_plan", service).call(request, 30.0).plan
+        assert found.poses[0].pose.position.x == pytest.approx(1.01)
+        return grids and plans
+
+    until(shown)
+    info = grids[0].info
+    assert (grids[0].header.frame_id, info.width, info.height) == ("map", 80, 80)
+    cells = np.array(grids[0].data).reshape(80, 80)
+    assert cells[20, 20] == 0
+    assert cells.max() == 50
+    assert cells[0].tolist() == [-1] * 80
+    assert cells[20, 20] < cells[30, 30] < cells[50, 50] < cells[60, 60]
+    assert plans[0].poses[-1].pose.position.y == pytest.approx(3.01)
+
+
 def test_costmaps_are_published_and_cleared(room, move_base):
     grids = []
     room.node.subscribe(

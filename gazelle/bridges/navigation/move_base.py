@@ -18,6 +18,7 @@ from gazelle.bridges.navigation.messages import (
     twist_message,
     wrong_quaternion,
 )
+from gazelle.bridges.navigation.planner_topics import PlannerTopics
 from gazelle.navigation.following import Pose2
 from gazelle.navigation.move_base import GoalOutcome, RobotState, navigation_stack
 from gazelle.navigation.move_base.state_machine import MoveStep
@@ -64,8 +65,8 @@ class MoveBaseNode:
         pose, path = geometry_msgs.msg.PoseStamped, nav_msgs.msg.Path
         self._current = node.advertise("~current_goal", pose, queue_size=1)
         self._recovery = node.advertise("~recovery_status", move_base_msgs.msg.RecoveryStatus)
-        planner, controller = self._law.planner.name, self._law.controller.name
-        self._plans = node.advertise(f"~{planner}/plan", path, queue_size=1)
+        controller = self._law.controller.name
+        self._planner = PlannerTopics(node, self._law.planner, self._lock, self._in_whole)
         self._whole_plans = node.advertise(f"~{controller}/global_plan", path, queue_size=1)
         self._local_plans = node.advertise(f"~{controller}/local_plan", path, queue_size=1)
         self._goals = node.advertise(
@@ -185,9 +186,8 @@ class MoveBaseNode:
         if step.velocity is not None:
             self._drive(step.velocity)
         if step.plan is not None:
-            message = path_message(step.plan, whole, now)
-            self._plans.publish(message)
-            self._whole_plans.publish(message)
+            self._planner.publish(step.plan, now)
+            self._whole_plans.publish(path_message(step.plan, whole, now))
         ahead = self._law.controller.local_plan
         if ahead is not None and self._local_plans.num_connections:
             self._local_plans.publish(path_message(ahead, local, now))

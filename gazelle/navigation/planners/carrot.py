@@ -3,24 +3,39 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
 from gazelle.array_types import Floats
+from gazelle.navigation.costmap import Costmap
 from gazelle.navigation.following import Pose2
 from gazelle.navigation.planners.navfn import NO_PLAN
-from gazelle.navigation.planners.plugins import GlobalPlannerPlugin
+from gazelle.navigation.planners.plugins import GlobalPlannerPlugin, Values
 from gazelle.navigation.planners.rollout import TrajectoryRollout
+from gazelle_ros.base.parameter_values import settings_from
 
 _STEP = 0.01
 """Share of the path by which the end moves back at a time."""
 
 
+@dataclass(frozen=True, slots=True)
+class CarrotSettings:
+    """Parameters of ``carrot_planner``, which it reads and does not use, as the original."""
+
+    step_size: float = 0.0
+    min_dist_from_robot: float = 0.1
+
+
 class CarrotPlanner(GlobalPlannerPlugin):
     """A straight path that ends where the robot can stand, at or before the goal.
 
-    Parameters: ``min_dist_from_robot`` 0.1 m is read and, as in the original, not used.
+    The end moves back by a hundredth of the way at a time. Parameters: see `CarrotSettings`.
     """
+
+    def __init__(self, name: str, costmap: Costmap, parameters: Values) -> None:
+        super().__init__(name, costmap, parameters)
+        settings_from(name, parameters, CarrotSettings)
 
     def make_plan(self, start: Pose2, goal: Pose2, tolerance: float | None = None) -> Floats:
         """Return a plan of two poses; see `GlobalPlannerPlugin`."""

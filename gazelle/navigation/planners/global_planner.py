@@ -3,80 +3,130 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 
 from gazelle.array_types import Floats, Floats32
+from gazelle.errors import Error
 from gazelle.navigation.costmap import Costmap
 from gazelle.navigation.costmap.values import NO_INFORMATION
-from gazelle.navigation.following import Pose2
-from gazelle.navigation.planners.navfn import PotentialPlanner, heading_along, turned
+from gazelle.navigation.following import Pose2, wrapped
+from gazelle.navigation.planners.navfn import PotentialPlanner
 from gazelle.navigation.planners.plugins import Values
-from gazelle_ros.base.parameter_values import value_of
+from gazelle_ros.base.parameter_values import settings_from
 
-_SIDES = {4: math.pi, 5: math.pi / 2.0, 6: -math.pi / 2.0}
-"""Modes in which the robot goes backward, or with its left or right side ahead."""
+_FORWARD, _INTERPOLATE, _FORWARD_THEN_INTERPOLATE = 1, 2, 3
+_SIDES: Final = {
+    _FORWARD: 0.0,
+    _FORWARD_THEN_INTERPOLATE: 0.0,
+    4: math.pi,
+    5: -math.pi / 2.0,
+    6: math.pi / 2.0,
+}
+"""Heading less that of the path [rad], by mode; 4 is backward, 5 leftward and 6 rightward."""
+_MODES: Final = range(7)
+_STRAIGHT_RAD: Final = 0.35
+"""Greatest change of heading between two poses of a straight line."""
+
+
+@dataclass(frozen=True, slots=True)
+class GlobalPlannerSettings:
+    """Parameters of ``global_planner``; names and defaults are the original's.
+
+    ``use_dijkstra`` false makes the original look at fewer cells, by A*; the way here is the cheapest
+    one in both cases. ``planner_window_x`` and ``planner_window_y`` are not used there either, and the
+    outermost cells are closed here whatever ``outline_map`` says.
+    """
+
+    allow_unknown: bool = True
+    default_tolerance: float = 0.0
+    lethal_cost: int = 253
+    neutral_cost: int = 50
+    cost_factor: float = 3.0
+    use_dijkstra: bool = True
+    use_quadratic: bool = True
+    use_grid_path: bool = False
+    old_navfn_behavior: bool = False
+    orientation_mode: int = 0
+    orientation_window_size: int = 1
+    publish_potential: bool = True
+    publish_scale: int = 100
+    outline_map: bool = True
+    planner_window_x: float = 0.0
+    planner_window_y: float = 0.0
+
+    def __post_init__(self) -> None:
+        if self.orientation_mode not in _MODES:
+            raise Error(f"'orientation_mode' is 0 to {_MODES[-1]}, not {self.orientation_mode}")
+        if not 0 < self.publish_scale <= 100:
+            raise Error(f"'publish_scale' is 1 to 100, not {self.publish_scale}")
 
 
 class GlobalPlanner(PotentialPlanner):
     """The cheapest path, as ``global_planner`` of ROS finds it.
 
-    Parameters: ``allow_unknown``, ``default_tolerance``, ``lethal_cost`` 253, ``neutral_cost`` 50,
-    ``cost_factor`` 3, ``use_quadratic``, ``use_grid_path``, ``orientation_mode`` (0 none, 1 forward, 2
-    interpolate, 3 forward then interpolate, 4 backward, 5 leftward, 6 rightward),
-    ``orientation_window_size``. ``use_dijkstra`` false only makes the original look at fewer cells; the
-    way here is the cheapest one in both cases.
+    Parameters: see `GlobalPlannerSettings`. Its plans lead from the very place of the robot to that of
+    the goal; with ``old_navfn_behavior`` they begin in the middle of a cell, as navfn's.
     """
 
     def __init__(self, name: str, costmap: Costmap, parameters: Values) -> None:
         super().__init__(name, costmap, parameters)
-        self._lethal = value_of(parameters, "lethal_cost", 253)
-        self._neutral = value_of(parameters, "neutral_cost", 50)
-        self._factor = value_of(parameters, "cost_factor", 3.0)
-        self._mode = value_of(parameters, "orientation_mode", 0)
-        self._window = value_of(parameters, "orientation_window_size", 1)
-        self.quadratic = value_of(parameters, "use_quadratic", True)
-        self.grid_path = value_of(parameters, "use_grid_path", False)
+        self.settings = settings_from(name, parameters, GlobalPlannerSettings)
+        self.quadratic = self.settings.use_quadratic
+        self.grid_path = self.settings.use_grid_path
+        self.exact_start = not self.settings.old_navfn_behavior
 
     def prices(self) -> Floats32:
         """Return neutral cost and factor times cost, below lethal; see `PotentialPlanner`."""
+        lethal = self.settings.lethal_cost
         costs = np.arange(256, dtype=np.float32)
-        table = np.minimum(self._neutral + self._factor * costs, self._lethal - 1.0)
-        table[costs >= self._lethal - 1] = 0.0
-        table[NO_INFORMATION] = self._lethal - 1.0 if self.allow_unknown else 0.0
+        table = self.settings.neutral_cost + self.settings.cost_factor * costs
+        table = np.minimum(table, lethal - 1.0)
+        table[costs >= lethal - 1] = 0.0
+        table[NO_INFORMATION] = lethal - 1.0 if self.allow_unknown else 0.0
         prices: Floats32 = table.astype(np.float32)
         return prices
 
     def oriented(self, plan: Floats, start: Pose2) -> Floats:
         """Return headings by ``orientation_mode``; the goal keeps its own."""
-        if self._mode == 0 or len(plan) < 3:
+        mode = self.settings.orientation_mode
+        if len(plan) < 3:
             return plan
-        goal = plan[-1, 2]
-        ahead = heading_along(plan)
-        if self._window > 1:
-            ahead = self._smoothed(plan)
-        if self._mode in {1, 3}:
-            plan[:, 2] = ahead
-        elif self._mode in _SIDES:
-            plan[:, 2] = turned(ahead, _SIDES[self._mode])
-        elif self._mode == 2:
-            plan[:, 2] = self._interpolated(start[2], goal, len(plan))
-        if self._mode == 3:
-            count = max(len(plan) // 2, 2)
-            plan[-count:, 2] = self._interpolated(plan[-count, 2], goal, count)
-        plan[-1, 2] = goal
+        if mode in _SIDES:
+            plan[:-1, 2] = _turned(self._ahead(plan)[:-1], _SIDES[mode])
+        if mode in {_INTERPOLATE, _FORWARD_THEN_INTERPOLATE}:
+            first = 0 if mode == _INTERPOLATE else _begin_of_last_line(plan[:, 2])
+            plan[0, 2] = start[2]
+            _interpolate(plan[first:])
         return plan
 
-    def _smoothed(self, plan: Floats) -> Floats:
-        """Return headings from so many poses before to so many after."""
-        count = len(plan)
-        index = np.arange(count)
-        after = plan[np.minimum(index + self._window, count - 1), :2]
-        before = plan[np.maximum(index - self._window, 0), :2]
-        apart = after - before
+    def _ahead(self, plan: Floats) -> Floats:
+        """Return headings from so many poses before to so many after [rad]."""
+        index = np.arange(len(plan))
+        window = self.settings.orientation_window_size
+        after = plan[np.minimum(index + window, len(plan) - 1), :2]
+        apart = after - plan[np.maximum(index - window, 0), :2]
         return np.arctan2(apart[:, 1], apart[:, 0])
 
-    @staticmethod
-    def _interpolated(first: float, last: float, count: int) -> Floats:
-        turn = math.remainder(last - first, 2.0 * math.pi)
-        return turned(first + turn * np.linspace(0.0, 1.0, count), 0.0)
+
+def _begin_of_last_line(headings: Floats) -> int:
+    """Return the first pose of the straight line that a plan ends with."""
+    first = len(headings) - 3
+    while first > 0 and abs(wrapped(headings[first - 1] - headings[-3])) <= _STRAIGHT_RAD:
+        first -= 1
+    return first
+
+
+def _interpolate(plan: Floats) -> None:
+    """Set headings between those of the first and the last pose."""
+    first, last = plan[0, 2], plan[-1, 2]
+    turn = wrapped(last - first)
+    plan[:-1, 2] = _turned(first + turn * np.linspace(0.0, 1.0, len(plan))[:-1], 0.0)
+
+
+def _turned(headings: Floats, angle: float) -> Floats:
+    """Return headings turned by an angle, between -pi and pi."""
+    turned: Floats = np.remainder(headings + angle + math.pi, 2.0 * math.pi) - math.pi
+    return turned

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import math
+from collections.abc import Callable
 from typing import Final
 
 import numpy as np
@@ -28,6 +28,12 @@ class PotentialPlanner(GlobalPlannerPlugin):
 
     The potential spreads from the robot, so that goals nearby can be looked at if one cannot be
     reached.
+
+    Attributes:
+        quadratic: Whether potentials are solved along both axes, and not only along the cheaper one.
+        grid_path: Whether plans go from cell to cell, and not along the gradient.
+        exact_start: Whether plans begin where the robot is, and not in the middle of its cell.
+        on_potential: Called with the potentials of each plan, shape (rows, columns), if set.
     """
 
     def __init__(self, name: str, costmap: Costmap, parameters: Values) -> None:
@@ -36,6 +42,8 @@ class PotentialPlanner(GlobalPlannerPlugin):
         self.tolerance = value_of(parameters, "default_tolerance", 0.0)
         self.quadratic = True
         self.grid_path = False
+        self.exact_start = False
+        self.on_potential: Callable[[Floats32], None] | None = None
         self._field: PotentialField | None = None
 
     def prices(self) -> Floats32:
@@ -59,6 +67,8 @@ class PotentialPlanner(GlobalPlannerPlugin):
         reach = self.tolerance if tolerance is None else tolerance
         least = float(table[table > 0.0].min())
         field.spread(prices, first, last if reach <= 0.0 else None, least, self.quadratic)
+        if self.on_potential is not None:
+            self.on_potential(field.values)
         end = last if reach <= 0.0 else self._nearest(field, last, reach)
         if end is None or field.values[end[1], end[0]] >= NOT_REACHED:
             return NO_PLAN
@@ -94,6 +104,8 @@ class PotentialPlanner(GlobalPlannerPlugin):
         plan[:, :2] = corner + (cells + 0.5) * self.costmap.resolution
         if exact:
             plan[-1] = goal
+        if self.exact_start:
+            plan[0, :2] = start[:2]
         plan[-1, 2] = goal[2]
         return self.oriented(plan, start)
 
@@ -105,21 +117,3 @@ class PotentialPlanner(GlobalPlannerPlugin):
 
 class NavfnPlanner(PotentialPlanner):
     """``navfn/NavfnROS``: parameters ``allow_unknown``, ``default_tolerance``."""
-
-
-def heading_along(plan: Floats) -> Floats:
-    """Return the heading from each pose to the next [rad], shape (n,).
-
-    The last keeps the one before.
-    """
-    steps = np.diff(plan[:, :2], axis=0)
-    if not len(steps):
-        return np.zeros(len(plan))
-    headings = np.arctan2(steps[:, 1], steps[:, 0])
-    return np.append(headings, headings[-1])
-
-
-def turned(headings: Floats, angle: float) -> Floats:
-    """Return headings turned by an angle, between -pi and pi."""
-    wrapped: Floats = np.remainder(headings + angle + math.pi, 2.0 * math.pi) - math.pi
-    return wrapped

@@ -2,6 +2,7 @@
 
 import heapq
 import math
+import re
 
 import numpy as np
 import pytest
@@ -148,16 +149,65 @@ def test_a_robot_in_an_obstacle_gets_out():
 
 @pytest.mark.parametrize(
     ("mode", "middle"),
-    [(0, 0.0), (1, 0.0), (2, None), (4, math.pi), (5, math.pi / 2), (6, -math.pi / 2)],
+    [(0, 0.0), (1, 0.0), (2, 1.5), (3, 1.5), (4, math.pi), (5, -math.pi / 2), (6, math.pi / 2)],
 )
 def test_headings_follow_the_mode(mode, middle):
     planner = GlobalPlanner(
         "g", costmap_of_cells(np.zeros((60, 60), np.uint8)), {"orientation_mode": mode}
     )
     plan = planner.make_plan((0.5, 1.525, 1.0), (2.5, 1.525, 2.0))
-    wanted = 1.5 if middle is None else middle
-    assert abs(math.remainder(plan[len(plan) // 2, 2] - wanted, 2 * math.pi)) < 0.1
+    assert abs(math.remainder(plan[len(plan) // 2, 2] - middle, 2 * math.pi)) < 0.1
     assert plan[-1, 2] == 2.0
+
+
+def test_headings_are_interpolated_along_the_last_straight_line_only():
+    cells = np.zeros((60, 60), np.uint8)
+    cells[:40, 28:32] = 254
+    planner = GlobalPlanner("g", costmap_of_cells(cells), {"orientation_mode": 3})
+    plan = planner.make_plan((0.5, 0.5, 0.0), (2.5, 0.5, 1.0))
+    ahead = np.arctan2(*(plan[2:, :2] - plan[:-2, :2]).T[::-1])
+    apart = np.abs(np.remainder(plan[1:-1, 2] - ahead + np.pi, 2 * np.pi) - np.pi)
+    bend = int(plan[:, 1].argmax())
+    assert apart[1 : bend - 2].max() < 1e-9
+    rest = plan[-8:, 2]
+    assert np.diff(rest) == pytest.approx(np.full(7, rest[1] - rest[0]))
+    assert plan[-1, 2] == 1.0
+
+
+def test_a_plan_begins_at_the_robot_or_as_navfn_in_its_cell():
+    costmap = costmap_of_cells(np.zeros((60, 60), np.uint8))
+    ends = (0.51, 0.54, 0.0), (2.51, 1.52, 0.3)
+    plan = GlobalPlanner("g", costmap, {}).make_plan(*ends)
+    assert plan[0, :2].tolist() == [0.51, 0.54]
+    assert plan[-1].tolist() == [2.51, 1.52, 0.3]
+    old = {"old_navfn_behavior": True, "cost_factor": 0.8}
+    plan = GlobalPlanner("g", costmap, old).make_plan(*ends)
+    assert np.array_equal(plan, NavfnPlanner("n", costmap, {}).make_plan(*ends))
+
+
+@pytest.mark.parametrize(
+    ("values", "text"),
+    [
+        ({"orientation_mode": 7}, "'orientation_mode' is 0 to 6, not 7"),
+        ({"publish_scale": 0}, "'publish_scale' is 1 to 100, not 0"),
+        ({"neutral_cost": "dear"}, "the parameter 'neutral_cost' is a int, not 'dear'"),
+    ],
+)
+def test_wrong_parameters_are_refused(values, text):
+    with pytest.raises(Error, match=re.escape(text)):
+        GlobalPlanner("g", costmap_of_cells(np.zeros((60, 60), np.uint8)), values)
+
+
+@pytest.mark.parametrize(
+    ("kind", "wrong", "right"),
+    [
+        (GlobalPlanner, "use_djikstra", "use_dijkstra"),
+        (CarrotPlanner, "step_sise", "step_size"),
+    ],
+)
+def test_unknown_parameters_are_warned_of(kind, wrong, right, caplog):
+    kind("mine", costmap_of_cells(np.zeros((60, 60), np.uint8)), {wrong: 1})
+    assert f"mine/{wrong} is an unknown parameter; did you mean '{right}'?" in caplog.text
 
 
 def test_a_grid_path_goes_from_cell_to_cell():

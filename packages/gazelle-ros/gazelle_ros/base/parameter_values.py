@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Collection, Mapping
 from dataclasses import MISSING, Field, fields
-from typing import Any
+from typing import Any, TypeVar
 
-from gazelle_ros.base.errors import Error
+from gazelle_ros.base.errors import Error, did_you_mean
 from gazelle_ros.base.real_numbers import real
 
 Values = Mapping[str, Any]
+Settings = TypeVar("Settings")
+
+_LOG = logging.getLogger("gazelle.ros.parameters")
 
 
 def value_of(values: Values, name: str, default: Any) -> Any:
@@ -50,3 +54,36 @@ def fields_of(kind: type[Any], values: Values, *, without: Collection[str] = ())
 
 def _default_of(each: Field[Any]) -> Any:
     return each.default if each.default_factory is MISSING else each.default_factory()
+
+
+def settings_from(
+    where: str, values: Values, kind: type[Settings], *, others: Collection[str] = ()
+) -> Settings:
+    """Return a dataclass of some parameters; those that are not set have its defaults.
+
+    Args:
+        where: Namespace of the parameters.
+        values: The parameters. Those that it does not know are warned of.
+        kind: The dataclass; its fields are called as the parameters.
+        others: Parameters that are read elsewhere.
+
+    Raises:
+        Error: A parameter is of another kind than its default.
+    """
+    known = [each.name for each in fields(kind)]  # type: ignore[arg-type]  # a dataclass
+    warn_of_unknown(where, values, {*known, *others})
+    return kind(**fields_of(kind, values))
+
+
+def warn_of_unknown(where: str, values: Values, known: Collection[str]) -> None:
+    """Warn of parameters that are not known; namespaces may belong to another node.
+
+    Args:
+        where: Namespace of the parameters.
+        values: The parameters.
+        known: Names of those known.
+    """
+    for name, value in values.items():
+        if name not in known and not isinstance(value, dict):
+            hint = did_you_mean(name, known)
+            _LOG.warning("%s/%s is an unknown parameter; %s", where, name, hint)

@@ -2,18 +2,11 @@
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Collection
-from dataclasses import fields
-from typing import Any, TypeVar
+from typing import Any
 
-from gazelle_ros.base.errors import did_you_mean
-from gazelle_ros.base.parameter_values import Values, fields_of
+from gazelle_ros.base.parameter_values import Settings, settings_from
 from gazelle_ros.node import Node
-
-_LOG = logging.getLogger("gazelle.ros.parameters")
-
-Settings = TypeVar("Settings")
 
 
 def private_values(node: Node) -> dict[str, Any]:
@@ -33,21 +26,4 @@ def settings_of(node: Node, kind: type[Settings], *, others: Collection[str] = (
     Raises:
         Error: A parameter is of another kind than its default.
     """
-    values = private_values(node)
-    known = [each.name for each in fields(kind)]  # type: ignore[arg-type]  # a dataclass
-    warn_of_unknown(node.resolve("~"), values, {*known, *others})
-    return kind(**fields_of(kind, values))
-
-
-def warn_of_unknown(where: str, values: Values, known: Collection[str]) -> None:
-    """Warn of parameters that are not known; namespaces may belong to another node.
-
-    Args:
-        where: Namespace of the parameters.
-        values: The parameters.
-        known: Names of those known.
-    """
-    for name, value in values.items():
-        if name not in known and not isinstance(value, dict):
-            hint = did_you_mean(name, known)
-            _LOG.warning("%s/%s is an unknown parameter; %s", where, name, hint)
+    return settings_from(node.resolve("~"), private_values(node), kind, others=others)

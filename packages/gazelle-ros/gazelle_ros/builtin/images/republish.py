@@ -6,10 +6,9 @@ import logging
 from collections.abc import Sequence
 
 from gazelle_ros.base.errors import RosError, did_you_mean
-from gazelle_ros.base.parameter_values import fields_of
+from gazelle_ros.base.parameter_values import fields_of, warn_of_unknown
 from gazelle_ros.builtin.arguments import CallbackWork, parse_arguments, spin
 from gazelle_ros.builtin.images.compression import CompressionSettings, compress, decompress
-from gazelle_ros.builtin.parameters import warn_of_unknown
 from gazelle_ros.builtin.tuned_settings import TunedSettings
 from gazelle_ros.msgs import sensor_msgs
 from gazelle_ros.node import Node

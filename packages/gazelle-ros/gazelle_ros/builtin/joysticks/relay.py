@@ -9,9 +9,9 @@ from typing import Any
 
 from gazelle_ros.actions import SimpleActionServer
 from gazelle_ros.base.errors import RosError
-from gazelle_ros.base.parameter_values import Values, fields_of, value_of
+from gazelle_ros.base.parameter_values import Values, fields_of, value_of, warn_of_unknown
 from gazelle_ros.builtin.arguments import run_node
-from gazelle_ros.builtin.parameters import private_values, warn_of_unknown
+from gazelle_ros.builtin.parameters import private_values
 from gazelle_ros.msgs import geometry_msgs, std_msgs, twist_mux_msgs, visualization_msgs
 from gazelle_ros.node import Node
 

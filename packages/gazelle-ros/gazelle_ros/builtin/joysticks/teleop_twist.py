@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from gazelle_ros.base.parameter_values import Values, value_of
+from gazelle_ros.base.parameter_values import Values, value_of, warn_of_unknown
 from gazelle_ros.builtin.arguments import CallbackWork, run_node
-from gazelle_ros.builtin.parameters import private_values, warn_of_unknown
+from gazelle_ros.builtin.parameters import private_values
 from gazelle_ros.msgs import geometry_msgs, sensor_msgs
 from gazelle_ros.node import Node
 

@@ -8,9 +8,9 @@ from dataclasses import fields, replace
 from typing import Any
 
 from gazelle_ros.base.errors import Error, RosError, did_you_mean
-from gazelle_ros.base.parameter_values import fields_of, value_of
+from gazelle_ros.base.parameter_values import fields_of, value_of, warn_of_unknown
 from gazelle_ros.builtin.arguments import run_node
-from gazelle_ros.builtin.parameters import private_values, warn_of_unknown
+from gazelle_ros.builtin.parameters import private_values
 from gazelle_ros.builtin.scans.conversion import StampedWork
 from gazelle_ros.builtin.scans.filters import by_angle, by_neighbours, by_place, by_value, over_time
 from gazelle_ros.builtin.scans.filters.beams import BeamScan, ScanFilter, ScanMotion, beam_scan
