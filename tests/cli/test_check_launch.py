@@ -100,7 +100,7 @@ def test_a_nodelet_is_looked_for_by_its_class(cli, tmp_path, command):
 
 WORLD = """<sdf version="1.6"><world name="default">
   <include><uri>model://nowhere</uri></include>
-  <plugin name="odd" filename="libodd.so"/>
+  <plugin name="odd" filename="libno_such_plugin.so"/>
 </world></sdf>
 """
 ROBOT = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
@@ -136,7 +136,7 @@ def test_the_world_of_a_launch_is_checked_as_by_itself(cli, tmp_path):
     node = f'<node pkg="gazebo_ros" type="gzserver" name="gazebo" args="-u {world}"/>'
     found = check_nodes(cli, tmp_path, node)
     unknown = found.pop()  # said once a process
-    assert f"{world}:3: plugin 'odd' (libodd.so)" in unknown["message"]
+    assert f"{world}:3: plugin 'odd' (libno_such_plugin.so)" in unknown["message"]
     assert found == findings(cli, str(world))
     assert places(found[:1], tmp_path) == [("bad.world", 2)]
     assert "model://nowhere" in found[0]["message"]
