@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gazelle.bridges import scan_conversions  # noqa: F401  it teaches the common ones
 from gazelle.bridges.conversions import (
@@ -33,6 +34,7 @@ from gazelle.simulation.values import (
     CliffValue,
     Fix,
     GeoReference,
+    KobukiCore,
     LaserPoints,
     MagneticValue,
     MotorPower,
@@ -63,6 +65,10 @@ _FIELDS = (
     ("ring", 16, 4, "<u2"),
     ("time", 18, 7, "<f4"),
 )
+# Of a Kobuki's messages: a turn of an encoder by a tick, where counters wrap, and 16.5 V in 0.1 V.
+_TICK_RAD = 0.002436916871363930
+_WORD = 1 << 16
+_FULL_BATTERY = 165
 _POINT = np.dtype([(name, kind) for name, _, _, kind in _FIELDS])
 
 
@@ -190,6 +196,23 @@ def _bump(
     message.bumper, message.state = value.place, int(value.pressed[view.world])
 
 
+def _core(message: kobuki_msgs.msg.SensorState, value: KobukiCore, view: ConversionContext) -> None:
+    set_plain_header(message, view, value.stamp)
+    message.time_stamp = value.stamp // 1_000_000 % _WORD
+    message.bumper, message.cliff = _bits(value.pressed[view.world]), _bits(value.deep[view.world])
+    ticks = (value.angles[view.world] // _TICK_RAD).astype(np.int64) % _WORD
+    message.left_encoder, message.right_encoder = ticks.tolist()
+    message.bottom = value.floor[view.world, ::-1].astype(np.int64).tolist()
+    message.charger, message.battery = kobuki_msgs.msg.SensorState.DISCHARGING, _FULL_BATTERY
+    message.current, message.analog_input = bytes(2), [0] * 4
+
+
+def _bits(flags: NDArray[np.bool_]) -> int:
+    """Return flags as bits, the last one lowest."""
+    return int(flags @ (4, 2, 1))
+
+
+add_encoder(KobukiCore, Encoder("kobuki_msgs/SensorState", _core))
 add_encoder(CliffValue, Encoder("kobuki_msgs/CliffEvent", _cliff))
 add_encoder(BumperValue, Encoder("kobuki_msgs/BumperEvent", _bump))
 add_decoder(MotorPower, Decoder("kobuki_msgs/MotorPower", lambda m: MotorPower(bool(m.state))))

@@ -29,8 +29,10 @@ from gazelle.simulation import (
     absolute,
     namespace_of,
 )
-from gazelle.simulation.values import MotorPower, SixNumbers, Trigger
+from gazelle.simulation.clock import Schedule
+from gazelle.simulation.values import KobukiCore, MotorPower, SixNumbers, Trigger
 
+_CORE_HZ = 50.0
 # Of the base's own topics, unless the parameter base_prefix has another.
 _PREFIX = "mobile_base"
 _VARIANCE: SixNumbers = (0.1, 0.1, 1e6, 1e6, 1e6, 0.05)
@@ -80,6 +82,7 @@ class Kobuki(ModelPlugin):
         command = robot.inputs["cmd_vel"] = TwistInput(nworld, "")
         longest = parameters.require("velocity_command_timeout", float)
         self.command = CommandTimeout(self._clock, command, longest)
+        self._core_times = Schedule(_CORE_HZ)
         self._open_ports(robot, parameters)
 
     def _open_ports(self, robot: Robot, parameters: Parameters) -> None:
@@ -91,15 +94,16 @@ class Kobuki(ModelPlugin):
         states = absolute(namespace, "joint_states")
         self._states = Output(states, JointStates, self._read_wheels, frame="base_link")
         self._imu_data = Output("", ImuReading, self._feel, frame="gyro_link")
-        robot.outputs.update(joint_states=self._states, imu_data=self._imu_data)
+        self._core = Output("", KobukiCore, self._read_core, queue_size=100)
+        robot.outputs.update(joint_states=self._states, imu_data=self._imu_data, core=self._core)
         framed = parameters.get("publish_tf", False)
         topic = absolute(namespace, "odom")
         measure = RolledOdometry(self.reckoning, "odom", "base_footprint", _VARIANCE)
         self.odometry = OdometryOutputs(robot, topic, measure, namespace, framed=framed)
         self._cliffs.open(robot)
         self._bumpers.open(robot)
-        outputs = self._states, self._imu_data, self.odometry, self._cliffs, self._bumpers
-        self.published = outputs
+        events = self._cliffs, self._bumpers
+        self.published = self._states, self._imu_data, self.odometry, self._core, *events
         self._namespace = namespace
         self._name_topics(_PREFIX)
         robot.settings["base_prefix"] = Setting(
@@ -114,6 +118,7 @@ class Kobuki(ModelPlugin):
         inputs["motor_power"].topic = f"{base}/commands/motor_power"
         inputs["reset_odometry"].topic = f"{base}/commands/reset_odometry"
         outputs["imu_data"].topic = f"{base}/sensors/imu_data"
+        outputs["core"].topic = f"{base}/sensors/core"
         for name, output in outputs.items():
             kind, _, _ = name.partition("_")
             if kind in ("cliff", "bumper"):
@@ -133,8 +138,14 @@ class Kobuki(ModelPlugin):
         if self._imu_data.wanted:
             self._imu_data.hand(self._reading(self.felt.copy()))
         self.odometry.publish(measured)
-        self._cliffs.publish()
-        self._bumpers.publish()
+        times, now_ns = self._core_times, self._clock.now_ns
+        core_due = self._core.wanted and times.is_due(now_ns)
+        for events in (self._cliffs, self._bumpers):
+            if core_due or events.wanted:
+                events.publish()
+        if core_due:
+            times.done(now_ns)
+            self._core.publish()
 
     def _feel(self) -> ImuReading:
         return self._reading(self.imu.current())
@@ -143,8 +154,17 @@ class Kobuki(ModelPlugin):
         reading: ImuReading = self.imu.model.reading(values, self._clock.now_ns)
         return reading
 
+    def _read_core(self) -> KobukiCore:
+        pressed, deep = self._bumpers.pressed.copy(), self._cliffs.deep.copy()
+        return KobukiCore(
+            self._clock.now_ns, pressed, deep, self._cliffs.readings, self._wheel_angles()
+        )
+
+    def _wheel_angles(self) -> Floats:
+        return np.concatenate([wheel.positions()[:, :1] for wheel in self.wheels], axis=1)
+
     def _read_wheels(self) -> JointStates:
-        angles = np.concatenate([wheel.positions()[:, :1] for wheel in self.wheels], axis=1)
+        angles = self._wheel_angles()
         speeds = np.concatenate([wheel.velocities()[:, :1] for wheel in self.wheels], axis=1)
         return JointStates(self._clock.now_ns, self._names, angles, speeds, np.zeros_like(angles))
 
@@ -157,6 +177,7 @@ class Kobuki(ModelPlugin):
         self.command.restart()
         if worlds is None:
             self.reckoning.restart()
+            self._core_times.restart()
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
         """Return odometry, power, contacts and times."""
@@ -175,6 +196,7 @@ class Kobuki(ModelPlugin):
         self._cliffs.deep[:], self._bumpers.pressed[:] = state["deep"], state["pressed"]
         self.reckoning.last_ns = int(state["times"][0])
         self.command.restart(int(state["times"][1]))
+        self._core_times.done(self._clock.now_ns)
 
 
 class KobukiSystem(OdometrySystem[Kobuki]):

@@ -53,11 +53,12 @@ class Cliffs:
             self._outputs.append(made)
 
     def _value_of(self, place: int) -> Callable[[], CliffValue]:
-        def read() -> CliffValue:
-            reading = _SCALE * np.arctan2(self._distances[:, place], _HEIGHT)
-            return CliffValue(place, self.deep[:, place].copy(), np.clip(reading, 0, 65535))
+        return lambda: CliffValue(place, self.deep[:, place].copy(), self.readings[:, place])
 
-        return read
+    @property
+    def readings(self) -> Floats:
+        """Readings of the sensors' converters, shape (nworld, 3)."""
+        return np.clip(_SCALE * np.arctan2(self._distances, _HEIGHT), 0, 65535)
 
     @property
     def wanted(self) -> bool:
@@ -66,8 +67,6 @@ class Cliffs:
 
     def publish(self) -> None:
         """Measure, and publish changes."""
-        if not self.wanted:
-            return
         for place, sensor in enumerate(self._sensors):
             nearest = self._distances[:, place] = self._look(sensor)
             deep = nearest >= self._threshold
@@ -121,8 +120,6 @@ class Bumpers:
 
     def publish(self) -> None:
         """Update contacts, and publish changes."""
-        if not self.wanted:
-            return
         touched = self._touched()
         changed = (touched != self.pressed).any(axis=0)
         self.pressed[:] = touched

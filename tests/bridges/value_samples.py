@@ -15,6 +15,7 @@ from gazelle.simulation.values import (
     CliffValue,
     Fix,
     Flags,
+    KobukiCore,
     LaserPoints,
     MagneticValue,
     PointValue,
@@ -158,6 +159,12 @@ def bumper(rng, nworld, _stamp):
     return BumperValue(int(rng.integers(3)), rng.random(nworld) < 0.5)
 
 
+def kobuki_core(rng, nworld, stamp):
+    pressed, deep = rng.random((2, nworld, 3)) < 0.5
+    floor, angles = rng.uniform(0.0, 65535.0, (nworld, 3)), rng.uniform(-500.0, 500.0, (nworld, 2))
+    return KobukiCore(stamp, pressed, deep, floor, angles)
+
+
 def placement(rng, nworld, _stamp):
     return Placement(rng.normal(size=(nworld, 3)), _turns(rng, nworld))
 
@@ -193,6 +200,7 @@ MAKERS = {
     AltimeterValue: altimeter,
     CliffValue: cliff,
     BumperValue: bumper,
+    KobukiCore: kobuki_core,
     bool: lambda rng, _nworld, _stamp: bool(rng.random() < 0.5),
     int: lambda rng, _nworld, _stamp: int(rng.integers(-(2**31), 2**31)),
     float: lambda rng, _nworld, _stamp: float(rng.normal()),

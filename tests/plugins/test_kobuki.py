@@ -88,6 +88,30 @@ def test_it_tells_where_it_is_touched(place, x, y, size):
         assert "right" not in pressed
 
 
+def test_its_core_sensors_are_published_fifty_times_a_second():
+    with simulate(kobuki(), WALL.format(x=0.42, y=0.0, size="0.1 0.1"), nworld=2) as sim:
+        robot = sim.robots["base"]
+        heard = []
+        robot.outputs["core"].subscribe(heard.append)
+        robot.inputs["cmd_vel"].send(linear=[0.3, 0.0])
+        sim.run(seconds=0.5)
+        assert np.diff([each.stamp for each in heard]).tolist() == [20_000_000] * (len(heard) - 1)
+        assert len(heard) in {25, 26}
+        last = heard[-1]
+        assert last.pressed.tolist() == [[False, True, False], [False] * 3]
+        assert not last.deep.any()
+        assert (last.floor > 0).all()
+        states = robot.outputs["joint_states"].last
+        assert last.angles == pytest.approx(states.position, abs=0.1)
+        robot.set_pose((0.0, 0.0, 0.6), worlds=[1])
+        sim.run(seconds=0.03)
+        assert heard[-1].deep.tolist() == [[False] * 3, [True] * 3]
+        sim.reset()
+        heard.clear()
+        sim.run(seconds=0.05)
+        assert [each.stamp for each in heard[-2:]] == [20_000_000, 40_000_000]
+
+
 def test_a_snapshot_goes_on_as_the_run_did_and_a_reset_starts_over():
     with simulate(kobuki()) as sim:
         robot = sim.robots["base"]
@@ -120,6 +144,7 @@ def test_a_parameter_puts_the_bases_own_topics_elsewhere():
         "/base/commands/velocity",
         "/base/commands/motor_power",
         "/base/commands/reset_odometry",
+        "/base/sensors/core",
         "/base/sensors/imu_data",
         "/base/events/cliff",
         "/base/events/bumper",

@@ -196,3 +196,22 @@ class BumperValue:
 
     place: int
     pressed: NDArray[np.bool_]
+
+
+@dataclass(frozen=True, slots=True)
+class KobukiCore:
+    """State of a Kobuki base's own sensors; places are left, in the middle and right.
+
+    Attributes:
+        stamp: Simulated time [ns].
+        pressed: Whether a bumper is pressed, shape (nworld, 3).
+        deep: Whether a sensor sees a cliff, shape (nworld, 3).
+        floor: Readings of the cliff sensors' converters, shape (nworld, 3).
+        angles: Of the left and the right wheel [rad], shape (nworld, 2).
+    """
+
+    stamp: int
+    pressed: NDArray[np.bool_]
+    deep: NDArray[np.bool_]
+    floor: Floats
+    angles: Floats

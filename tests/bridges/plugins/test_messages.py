@@ -254,6 +254,9 @@ def test_a_kobuki_hears_and_tells_in_its_own_messages():
         robot.set_pose((0.0, 0.0, 0.6))
         wait(lambda: any((event.sensor, event.state) == (1, 1) for event in cliffs))
         assert all(event.bottom > 0 for event in cliffs)
+        core = first(graph, "/mobile_base/sensors/core", "kobuki_msgs/SensorState")
+        assert core.time_stamp == core.header.stamp.to_nsec() // 1_000_000 % 65536
+        assert (core.charger, core.wheel_drop, len(core.bottom)) == (core.DISCHARGING, 0, 3)
         send(graph, "/mobile_base/commands/motor_power", "kobuki_msgs/MotorPower", state=0)
         send(graph, "/mobile_base/commands/reset_odometry", "std_msgs/Empty")
         odometry = first(graph, "/odom", "nav_msgs/Odometry")

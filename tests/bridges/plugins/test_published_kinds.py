@@ -1,6 +1,7 @@
 """Every kind of value that ports publish, as a message."""
 
 import io
+import math
 
 import numpy as np
 import pytest
@@ -25,6 +26,7 @@ from gazelle.simulation.values import (
     CliffValue,
     Fix,
     Flags,
+    KobukiCore,
     LaserPoints,
     MagneticValue,
     PointValue,
@@ -50,6 +52,7 @@ PLAIN = {
     PointValue,
     AltimeterValue,
     SonarValue,
+    KobukiCore,
 }
 views = st.fixed_dictionaries(
     {
@@ -301,6 +304,21 @@ def says_bump(message, value, world, _view):
     assert (message.bumper, bool(message.state)) == (value.place, value.pressed[world])
 
 
+def says_core(message, value, world, _view):
+    places = ("LEFT", "CENTRE", "RIGHT")
+    for kind, flags in (("bumper", value.pressed), ("cliff", value.deep)):
+        bits = [getattr(message, f"{kind.upper()}_{place}") for place in places]
+        assert [bool(getattr(message, kind) & bit) for bit in bits] == flags[world].tolist()
+    assert list(message.bottom) == value.floor[world, ::-1].astype(int).tolist()
+    assert message.time_stamp == value.stamp // 10**6 % 2**16
+    for ticks, angle in zip(
+        (message.left_encoder, message.right_encoder), value.angles[world], strict=True
+    ):
+        turned = ticks * 0.002436916871363930
+        assert abs(math.remainder(turned - angle, 2**16 * 0.002436916871363930)) < 0.0025
+    assert message.charger == message.DISCHARGING
+
+
 def says_data(message, value, _world, _view):
     assert message.data == value
 
@@ -335,6 +353,7 @@ SAYS = {
     AltimeterValue: says_altimeter,
     CliffValue: says_cliff,
     BumperValue: says_bump,
+    KobukiCore: says_core,
     Flags: says_flag,
     **dict.fromkeys((bool, int, float, str), says_data),
 }

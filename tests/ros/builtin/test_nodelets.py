@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import signal
+import threading
 
 import pytest
 from ros.graph import Background, until
@@ -139,6 +140,33 @@ def test_the_loader_waits_unloads_at_its_end_and_ends_with_the_manager(
     made.unload("/testing_Repeating")
     node.close()
     loader.end(stop=False)
+
+
+def test_a_manager_at_its_end_unloads_all_and_expects_late_requests(manager, call, caplog):
+    assert call("load_nodelet", name="/one", type="testing/Repeating").success
+    assert not call("unload_nodelet", name="/two").success
+    assert "there is no nodelet /two to unload" in caplog.text
+    caplog.clear()
+    ended = threading.Event()
+    ended.set()
+    manager.run(ended)
+    assert manager.loaded == []
+    assert call("unload_nodelet", name="/one").success
+    assert caplog.records == []
+
+
+def test_a_loader_ends_quietly_beside_its_manager(make_node, master, monkeypatch, caplog):
+    monkeypatch.setenv("ROS_MASTER_URI", master.uri)
+    loader = Background(lambda _stop: main(["load", "testing/Repeating", "manager", "__name:=one"]))
+    node = make_node("manager")
+    made = NodeletManager(node)
+    until(lambda: made.loaded == ["/one"])
+    caplog.clear()
+    monkeypatch.setattr(made, "unload", lambda _name: node.close())
+    with GraphInspector("rosnode", master_uri=master.uri) as graph:
+        assert kill(graph, ["/one"]) == []
+    loader.end(stop=False)
+    assert "is not unloaded" not in caplog.text
 
 
 @pytest.mark.parametrize(

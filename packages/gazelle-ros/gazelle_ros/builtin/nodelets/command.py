@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import logging
 import threading
 from collections.abc import Sequence
@@ -30,6 +31,7 @@ _WORDS = {"manager": 1, "standalone": 2, "unload": 3, "load": 3}
 _FIRST_WAIT_S = 10.0
 _PROBE_S = 0.5
 _ANSWER_S = 5.0
+_MANAGER_IS_GONE = (ServiceError, UnreachableError, RosTimeoutError)
 _LOG = logging.getLogger("gazelle.ros.nodelet")
 
 
@@ -103,7 +105,9 @@ class _NodeletLoader:
         """Unload the nodelet, unless that was done."""
         with self._lock:
             if self._loaded and not self._node.closed:
-                _request_unload(self._node, self._manager, self._node.name)
+                # A manager that ends at the same time has unloaded it.
+                with contextlib.suppress(*_MANAGER_IS_GONE):
+                    _request_unload(self._node, self._manager, self._node.name)
             self._loaded = False
 
 
@@ -141,13 +145,13 @@ def _is_there(node: Node, manager: str) -> bool:
 def _unload(found: NodeArguments) -> int:
     _, name, manager, *_ = found.plain
     with found.start() as node:
-        return 0 if _request_unload(node, manager, name) else 1
+        try:
+            return 0 if _request_unload(node, manager, name) else 1
+        except _MANAGER_IS_GONE as error:
+            _LOG.warning("%s is not unloaded from %s: %s", name, manager, error)
+            return 1
 
 
 def _request_unload(node: Node, manager: str, name: str) -> bool:
     client = node.client(f"{manager}/unload_nodelet", messages.srv.NodeletUnload)
-    try:
-        return bool(client.call(messages.srv.NodeletUnloadRequest(name=name), _ANSWER_S).success)
-    except (ServiceError, UnreachableError, RosTimeoutError) as error:
-        _LOG.warning("%s is not unloaded from %s: %s", name, manager, error)
-        return False
+    return bool(client.call(messages.srv.NodeletUnloadRequest(name=name), _ANSWER_S).success)

@@ -29,6 +29,7 @@ class NodeletManager(CallbackWork):
         super().__init__(node)
         self._loaded: dict[str, _LoadedNodelet] = {}
         self._lock = threading.Lock()
+        self._ending = False
         node.serve("~load_nodelet", messages.srv.NodeletLoad, self._load)
         node.serve("~unload_nodelet", messages.srv.NodeletUnload, self._unload)
         node.serve("~list", messages.srv.NodeletList, lambda _request: [self.loaded])
@@ -42,6 +43,7 @@ class NodeletManager(CallbackWork):
     def run(self, stop: threading.Event) -> None:
         """Run nodelets until shutdown, then unload them."""
         super().run(stop)
+        self._ending = True
         for name in self.loaded:
             self.unload(name)
 
@@ -88,7 +90,8 @@ class NodeletManager(CallbackWork):
         return [True]
 
     def _unload(self, request: messages.srv.NodeletUnloadRequest) -> Sequence[bool]:
-        found = self.unload(request.name)
+        # Who loads nodelets may end at the same time, and ask for what is done already.
+        found = self.unload(request.name) or self._ending
         if not found:
             _LOG.error("there is no nodelet %s to unload", request.name)
         return [found]
