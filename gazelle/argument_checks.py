@@ -33,6 +33,8 @@ MOST = 1e15
 _DEEPEST = 4
 _CHECKED: set[type] = set()
 """Classes with instances checked at creation."""
+_WRAPPED: set[Any] = set()
+"""Functions that check their arguments: a class that is checked leaves them as they are."""
 _TRUSTED = {"from_dict", "restore"}
 """Methods that get what their own class made, such as a state with infinite costs."""
 _ARRAY = re.compile(r"\b(ArrayLike|Floats\d*|Bools|Indices|Ints\d*)\b")
@@ -119,7 +121,7 @@ def _decorate_members(kind: type, checking: Callable[[Any], Any]) -> None:
     for name, member in list(vars(kind).items()):
         if name not in ("__init__", "__getitem__") and (name[0] == "_" or name in _TRUSTED):
             continue
-        if inspect.isfunction(member):
+        if inspect.isfunction(member) and member not in _WRAPPED:
             setattr(kind, name, checking(member))
         elif isinstance(member, classmethod | staticmethod):
             setattr(kind, name, type(member)(checking(member.__func__)))
@@ -146,6 +148,7 @@ def _checking(function: Any, error: type[Error], most: float, *, after: bool) ->
                 look(positional, named)
             raise _explained(function, failure, error) from failure
 
+    _WRAPPED.add(call)
     return call
 
 

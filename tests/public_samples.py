@@ -25,9 +25,11 @@ import gazelle_ros as ros
 from gazelle import Simulation, clients, planning, stage
 from gazelle.control import EFFORT, JointCommandInterface, JointStateInterface
 from gazelle.description import Box, OccupancyMap, Pose
+from gazelle.engines import planar
 from gazelle.engines.tracer import make_tracer
 from gazelle.formats import Octree
 from gazelle.geometry import triangles
+from gazelle.geometry.planar_part import PlanarPart
 from gazelle.sensors import View, look_at
 from gazelle.streams import Stream
 from gazelle.training import Actor
@@ -62,6 +64,8 @@ PACKAGES = {
     "launch": "gazelle_ros.launch",
     "bags": "gazelle_ros.bags",
     "frames": "gazelle_ros.tf",
+    "mujoco": "gazelle.engines.mujoco",
+    "planar": "gazelle.engines.planar",
     "ros": "gazelle_ros",
 }
 
@@ -342,6 +346,18 @@ TABLE: dict[str, Callable[[Samples], Any]] = {
     "StageWorld": lambda s: s.stage.description,
     "Ranger": lambda s: s.stage.robot("r").rangers[0],
     "PlanarEngine": lambda s: s.stage.stage_fleet.engine,
+    "MujocoEngine": lambda s: s.simulation.engine,
+    "PlanarPart": lambda s: PlanarPart.box(1.0, 1.0),
+    "Body": lambda s: planar.Body((PlanarPart.box(0.1, 0.1),), drive=planar.Drive()),
+    "Fleet": lambda s: planar.Fleet([TABLE["Body"](s)] * 2, nworld=2, threads=1),
+    "Fan": lambda s: planar.Fan(0.0, 0.1, 3, 1.0),
+    "Mount": lambda s: planar.Mount(0),
+    "PrimitiveTable": lambda s: planar.primitives_of([PlanarPart.box(1.0, 1.0)]),
+    "DriveVelocities": lambda s: None,
+    "AngleNoiseScanner": lambda s: planar.AngleNoiseScanner(
+        TABLE["Fleet"](s), TABLE["Fan"](s), [planar.Mount(0)], np.zeros(1)
+    ),
+    "System": lambda s: planar.DriveVelocities(TABLE["Fleet"](s).bodies),
     "Clock": lambda s: s.stage.clock,
     "Rider": lambda s: s.stage.robot("r").riders[0],
     "Gripper": lambda s: s.stage.gripper("r"),

@@ -228,11 +228,11 @@ class Engine(Protocol):
         It must be read at once and not kept.
         """
 
-    def write_state(self, indices: Indices, values: Floats) -> None:
+    def write_state(self, places: Indices, values: Floats) -> None:
         """Set entries of the state, as links, joints and models do that are set.
 
         Args:
-            indices: Places in ``peek``, flattened.
+            places: In ``peek``, flattened.
             values: Values to set, of the same shape.
         """
 

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.description import World
-from gazelle.errors import EngineError
+from gazelle.description import Model, World
+from gazelle.errors import EngineError, Error
 from gazelle.kinematics.tree import FARTHEST
 from gazelle_ros.base.characters import can_be_written
 from gazelle_ros.base.real_numbers import finite
@@ -28,6 +28,12 @@ MAX_ITERATIONS = 1000
 
 # A world takes a kilobyte at the very least.
 MAX_WORLDS = 2**20
+
+MAX_RAYS = 4_000_000
+"""Of one range finder, all rows together."""
+
+MAX_VALUES = 1 << 28
+"""Rays or pixels of one sensor in all worlds together."""
 
 
 def whole_number(what: str, value: Any, least: int = 1, most: int = MOST) -> int:
@@ -90,16 +96,26 @@ def check_world(world: World) -> None:
             shown = " ".join(map(str, values)) if np.shape(values) else values
             raise EngineError(f"the {name} must be finite, three numbers, not {shown!s:.60}")
     for model in world.models:
-        why = name_fault(model.name)
-        if why is not None:
-            hint = f"call it '{model.name.replace('::', '_')}'" if "::" in str(model.name) else None
-            raise EngineError(
-                f"a model cannot be called {str(model.name)!r:.60}: {why}",
-                source=model.source,
-                hint=hint,
-            )
-        if not all(abs(each) <= FARTHEST for each in model.pose.position):
-            raise EngineError(
-                f"model '{model.name}' cannot be at {model.pose}: that is too far away",
-                source=model.source,
-            )
+        check_model(model)
+
+
+def check_model(model: Model, error: type[Error] = EngineError) -> None:
+    """Check the name and the pose of a model.
+
+    Raises:
+        Error: The name holds what parts names, or the pose is not finite or too far away; of the
+            given class.
+    """
+    name, pose = model.name, model.pose
+    why = name_fault(name)
+    if why is not None:
+        hint = f"call it '{name.replace('::', '_')}'" if "::" in str(name) else None
+        raise error(
+            f"a model cannot be called {str(name)!r:.60}: {why}", source=model.source, hint=hint
+        )
+    if not np.isfinite((*pose.position, *pose.quaternion)).all():
+        raise error(f"the pose of model '{name}' must be finite, not {pose}", source=model.source)
+    if not all(abs(each) <= FARTHEST for each in pose.position):
+        raise error(
+            f"model '{name}' cannot be at {pose}: that is too far away", source=model.source
+        )

@@ -5,9 +5,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from gazelle.argument_checks import checked
+from gazelle.errors import EngineError
 from gazelle.geometry.polygons import Point
 
 
+@checked(EngineError)
 @dataclass(frozen=True, slots=True)
 class PlanarPart:
     """Outline between two heights, in the frame of its body or of the world.
@@ -21,6 +24,9 @@ class PlanarPart:
         glow: Laser return; negative: no ray meets it.
         solid: Bodies collide with it.
         tag: A number that scanners report for what rays met.
+
+    Raises:
+        EngineError: A number cannot be.
     """
 
     points: tuple[Point, ...]
@@ -33,9 +39,9 @@ class PlanarPart:
     tag: int = 0
 
     @classmethod
-    def circle(cls, x: float, y: float, radius: float, **others: float) -> PlanarPart:
-        """Return a disc."""
-        return cls(((x, y),), radius, **others)  # type: ignore[arg-type]
+    def circle(cls, x: float, y: float, radius: float) -> PlanarPart:
+        """Return a disc about (x, y)."""
+        return cls(((x, y),), radius)
 
     @classmethod
     def box(cls, width: float, depth: float, x: float = 0.0, y: float = 0.0) -> PlanarPart:

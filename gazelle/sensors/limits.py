@@ -6,16 +6,11 @@ from collections.abc import Iterator
 
 from gazelle.array_types import Worlds
 from gazelle.description import Scan, Sensor
+from gazelle.engines.limits import MAX_RAYS, MAX_VALUES
 from gazelle.errors import SimulationError
-
-MAX_RAYS = 4_000_000
-"""Of one range finder, all rows together."""
 
 MAX_PIXELS = 1 << 26
 """Of one camera: 8192 by 8192."""
-
-MAX_VALUES = 1 << 28
-"""Rays or pixels of one sensor in all worlds together."""
 
 
 def check_sensor(sensor: Sensor, name: str, nworld: int) -> None:

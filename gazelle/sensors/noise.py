@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Indices, UInts64, Worlds
 from gazelle.description import Noise
+from gazelle.engines.limits import MAX_VALUES
 from gazelle.errors import SimulationError
-from gazelle.sensors.limits import MAX_VALUES
 from gazelle.streams import Stream
 
 NO_NOISE = Noise()

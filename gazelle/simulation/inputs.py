@@ -9,8 +9,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gazelle.array_types import Floats, Worlds
-from gazelle.description import Model
-from gazelle.engines.limits import name_fault
 from gazelle.errors import SimulationError
 from gazelle.kinematics.tree import FARTHEST
 
@@ -201,29 +199,6 @@ def duration(seconds: float) -> float:
             f"cannot run for {seconds} s; time goes forward only, and {LONGEST_RUN:g} s at most"
         )
     return seconds
-
-
-def placeable(model: Model) -> Model:
-    """Return a model whose name and pose are valid.
-
-    Raises:
-        SimulationError: Its name or its pose cannot be.
-    """
-    name = model.name
-    why = name_fault(name)
-    if why is not None:
-        raise SimulationError(
-            f"a model cannot be called {_short(repr(name))}: {why}", source=model.source
-        )
-    if not np.isfinite((*model.pose.position, *model.pose.quaternion)).all():
-        raise SimulationError(
-            f"the pose of model '{name}' must be finite, not {model.pose}", source=model.source
-        )
-    if not all(abs(each) <= FARTHEST for each in model.pose.position):
-        raise SimulationError(
-            f"model '{name}' cannot be at {model.pose}: that is too far away", source=model.source
-        )
-    return model
 
 
 def _short(values: object) -> str:

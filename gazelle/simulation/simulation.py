@@ -14,7 +14,7 @@ from gazelle import formats
 from gazelle.array_types import Worlds
 from gazelle.description import Model, Plugin, Pose, World
 from gazelle.engines import Engine, make_engine
-from gazelle.engines.limits import NANOSECONDS
+from gazelle.engines.limits import NANOSECONDS, check_model
 from gazelle.errors import SimulationError
 from gazelle.rendering import LiveScene
 from gazelle.sensors import View
@@ -233,9 +233,9 @@ class Simulation(Closeable):
         """
         loaded = model if isinstance(model, Model) else formats.load_model(model)
         placed = replace(loaded, name=name or loaded.name, pose=(pose or Pose()) * loaded.pose)
-        whole = inputs.placeable(placed)
+        check_model(placed, SimulationError)
         with self.lock:
-            return self.entities.spawn(whole, namespace)
+            return self.entities.spawn(placed, namespace)
 
     def load_plugin(self, filename: str) -> None:
         """Start a plugin that no file names, with empty parameters, for the whole simulation.

@@ -10,12 +10,13 @@ import mujoco
 import numpy as np
 from mujoco.batch import Batch
 
+from gazelle.argument_checks import checked, indices, world_indices
 from gazelle.array_types import Floats, Indices, Worlds
 from gazelle.description import Model, World
 from gazelle.engines.hanging_links import HangingLinks
 from gazelle.engines.history import Call
 from gazelle.engines.laws import laws_of, with_profile
-from gazelle.engines.limits import MAX_WORLDS, check_world, physics_step, whole_number
+from gazelle.engines.limits import MAX_WORLDS, check_model, check_world, physics_step, whole_number
 from gazelle.engines.mujoco.attachments import LinkHolding
 from gazelle.engines.mujoco.compiler.motors import motor_again
 from gazelle.engines.mujoco.compiler.spec import CompilerInput
@@ -178,6 +179,7 @@ class MujocoEngine:
         """Advance every world by ``count`` physics steps, and update systems that are due."""
         self._made.make(whole_number("the number of steps", count, 0), systems, now_ns)
 
+    @checked(EngineError, after=True)
     def update(self, system: System, now_ns: int = 0) -> None:
         """Update a system now, whatever its rate; one of joints reads them and acts on them."""
         if isinstance(system, JointSystem):
@@ -190,6 +192,8 @@ class MujocoEngine:
     def reset(self, worlds: Worlds | None = None) -> None:
         """Reset worlds to their initial state: poses, rest, no forces."""
         self._run.now()
+        if worlds is not None:
+            worlds = world_indices(worlds, self._run.nworld, EngineError)
         if self._run.sleepy:
             self._run.batch.reset(worlds, stage=_NO_STAGE)  # wakes all that sleeps
         self._run.batch.state[rows_of(worlds)] = self._run.initial
@@ -200,6 +204,7 @@ class MujocoEngine:
 
     def spawn(self, model: Model) -> None:
         """Add a model to every world, at rest at its ``pose``; all else stays as it is."""
+        check_model(model)
         recipe = self._run.latest
         names = {each.name for each in recipe.world.models}
         if model.name in names:
@@ -332,11 +337,12 @@ class MujocoEngine:
         view: Floats = self._run.batch.state
         return view
 
-    def write_state(self, indices: Indices, values: Floats) -> None:
+    @checked(EngineError)
+    def write_state(self, places: Indices, values: Floats) -> None:
         """Set entries of the state, by their places in ``peek``, flattened."""
         self._run.now()
-        before = self._run.state.qpos.copy()
-        self._run.batch.state.reshape(-1)[indices] = values
+        before, state = self._run.state.qpos.copy(), self._run.batch.state.reshape(-1)
+        state[indices("places", places, len(state), EngineError)] = values
         note_moves(self._run, before)
         self._run.stale = True
 

@@ -9,12 +9,13 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gazelle.argument_checks import checked, indices, world_indices
 from gazelle.array_types import Floats, Indices, Worlds
 from gazelle.description import Model, World
 from gazelle.engines.hanging_links import HangingLinks
 from gazelle.engines.history import Call
 from gazelle.engines.laws import with_profile
-from gazelle.engines.limits import check_world, physics_step, whole_number
+from gazelle.engines.limits import check_model, check_world, physics_step, whole_number
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar import unsupported
 from gazelle.engines.planar.fleet import Fleet
@@ -162,6 +163,7 @@ class PlanarEngine:
         """Advance every world by ``count`` physics steps, and update systems that are due."""
         self._run.steps.make(systems, whole_number("the number of steps", count, 0), now_ns)
 
+    @checked(EngineError, after=True)
     def update(self, system: System, now_ns: int = 0) -> None:
         """Update a system now, whatever its rate, on all threads."""
         fleet = self._run.fleet
@@ -180,6 +182,7 @@ class PlanarEngine:
         # Where there is no motor there is no number, and that in all worlds.
         self._run.targets[rows] = np.where(np.isnan(self._run.targets[0]), math.nan, 0.0)
 
+    @checked(EngineError)
     def command(self, wanted: ArrayLike) -> None:
         """Set the drive commands of all bodies, shape (nworld, nbody, 3); see ``Drive``."""
         self._run.fleet.command[:] = np.asarray(wanted, np.float64)
@@ -200,10 +203,8 @@ class PlanarEngine:
             worlds: Which worlds.
             height: Of its frame [m], shape () or (n,); as it was if None.
         """
-        self._run.fleet.place(body, pose, worlds)
+        self._run.fleet.place(body, pose, worlds, height=height)
         self._run.fleet.stalled[rows_of(worlds), body] = False
-        if height is not None:
-            self._run.fleet.heights[rows_of(worlds), body] = height
 
     def place_bodies(self, which: Worlds, poses: ArrayLike) -> None:
         """Set the poses of some bodies, at rest; they keep their heights.
@@ -213,15 +214,17 @@ class PlanarEngine:
             poses: x, y [m] and heading [rad], shape (n, 3).
         """
         fleet = self._run.fleet
+        rows = indices("bodies", which, fleet.stalled.size, EngineError)
+        fleet.put(poses, fleet.heights.reshape(-1)[rows], rows)
         for values in (fleet.command, fleet.velocity):
-            values.reshape(-1, 3)[which] = 0.0
-        fleet.stalled.reshape(-1)[which] = False
-        fleet.put(poses, fleet.heights.reshape(-1)[which], which)
+            values.reshape(-1, 3)[rows] = 0.0
+        fleet.stalled.reshape(-1)[rows] = False
 
     # -- change ------------------------------------------------------------------------
 
     def spawn(self, model: Model) -> None:
         """Add a model to every world, at rest at its ``pose``; all else stays as it is."""
+        check_model(model)
         world = self.world
         if model.name in self._run.layout.models:
             raise EngineError(f"there is a model '{model.name}' already", source=model.source)
@@ -300,10 +303,11 @@ class PlanarEngine:
         self._run.angles[:], self._run.rates[:] = joints[:, 0], joints[:, 1]
         self._run.targets[:] = np.where(np.isnan(self._run.targets), math.nan, joints[:, 2])
 
-    def write_state(self, indices: Indices, values: Floats) -> None:
+    @checked(EngineError)
+    def write_state(self, places: Indices, values: Floats) -> None:
         """Set entries of the state, by their places in ``peek``, flattened."""
         state = self.snapshot()
-        state.reshape(-1)[indices] = values
+        state.reshape(-1)[indices("places", places, state.size, EngineError)] = values
         self.restore(state)
 
     # -- parameters --------------------------------------------------------------------
@@ -312,8 +316,8 @@ class PlanarEngine:
         """Return the world's gravity, shape (n, 3); the plane has no other parameter."""
         if kind != "gravity" or name:
             raise unsupported.refuse(f"the parameter {kind}")
-        count = self.nworld if worlds is None else len(worlds)
-        return np.tile(self.world.gravity, (count, 1))
+        every = np.arange(self.nworld) if worlds is None else worlds
+        return np.tile(self.world.gravity, (len(world_indices(every, self.nworld, EngineError)), 1))
 
     def close(self) -> None:
         """Free threads."""

@@ -11,7 +11,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.argument_checks import checked, indices, world_indices
 from gazelle.array_types import Floats, Worlds
+from gazelle.engines.limits import MAX_RAYS, MAX_VALUES
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.beams import Beams
 from gazelle.engines.planar.clear_space import ClearSpace
@@ -23,7 +25,7 @@ from gazelle.engines.planar.small_scene import front_faces_of
 from gazelle.engines.planar.viewpoint import Viewpoint
 from gazelle.errors import EngineError
 from gazelle.native.system import System
-from gazelle_ros.base.real_numbers import finite
+from gazelle.streams import seed_of
 
 _ANGLES = 5e-5  # how wrong the kernels' angles may be [rad]
 _SIDE_BY_SIDE = 32  # beams of a bundle
@@ -32,6 +34,7 @@ _MANY = 256  # statics in view from which it pays to find out which ones are hid
 _SHARE = 4000  # beams that are worth a thread
 
 
+@checked(EngineError)
 @dataclass(frozen=True, slots=True)
 class Fan:
     """Beams from one point, at equal angles.
@@ -44,7 +47,7 @@ class Fan:
         begin: What is nearer is not met [m].
 
     Raises:
-        EngineError: A number is not finite.
+        EngineError: A number cannot be.
     """
 
     start: float
@@ -52,11 +55,6 @@ class Fan:
     count: int
     reach: float
     begin: float = 0.0
-
-    def __post_init__(self) -> None:
-        numbers = (self.start, self.step, self.reach, self.begin)
-        if any(finite(each) is None for each in numbers):
-            raise EngineError(f"the angles and distances of a fan must be finite: {self}")
 
     @classmethod
     def spread(cls, fov: float, count: int, reach: float, begin: float = 0.0) -> Fan:
@@ -71,6 +69,7 @@ class Fan:
         return angles
 
 
+@checked(EngineError)
 @dataclass(frozen=True, slots=True)
 class Mount:
     """Mount of a sensor on a body.
@@ -81,6 +80,9 @@ class Mount:
         y: In the body's frame [m].
         yaw: Of its x axis in the body's frame [rad].
         z: Height above the body's frame [m].
+
+    Raises:
+        EngineError: A number cannot be.
     """
 
     body: int
@@ -89,24 +91,25 @@ class Mount:
     yaw: float = 0.0
     z: float = 0.0
 
-    def __post_init__(self) -> None:
-        if any(finite(each) is None for each in (self.x, self.y, self.yaw, self.z)):
-            raise EngineError(f"the place of a sensor must be finite: {self}")
 
-
+@checked(EngineError)
 @dataclass(frozen=True, slots=True)
 class RangeNoise:
-    """Normal noise on ranges: of standard deviation ``constant`` [m] plus ``share`` of them."""
+    """Normal noise on ranges: of standard deviation ``constant`` [m] plus ``share`` of them.
+
+    Raises:
+        EngineError: A number is negative, or cannot be.
+    """
 
     constant: float = 0.0
     share: float = 0.0
 
     def __post_init__(self) -> None:
-        numbers = (self.constant, self.share)
-        if not all(finite(each) is not None and each >= 0.0 for each in numbers):
-            raise EngineError(f"noise on ranges must be finite and not negative: {self}")
+        if min(self.constant, self.share) < 0.0:
+            raise EngineError(f"noise on ranges must not be negative: {self}")
 
 
+@checked(EngineError, most=math.inf)
 class Scanner:
     """The same fan on some bodies of a fleet.
 
@@ -116,7 +119,7 @@ class Scanner:
         mounts: Where they start, the same in all worlds.
         named: Whether to remember what each beam met.
         noise: On the ranges; None for none.
-        seed: Of the noise.
+        seed: Of the noise, any int.
         missing: Range of a beam that meets nothing [m]; the fan's reach if None.
         signed: Whether what a beam meets from inside has the range minus infinity.
 
@@ -127,7 +130,7 @@ class Scanner:
         tick: Number of scans requested one by one so far; the noise of a scan depends on it.
 
     Raises:
-        EngineError: The fan cannot be, or there is no such body.
+        EngineError: The fan cannot be, there is no such body, or a number cannot be.
     """
 
     def __init__(
@@ -142,13 +145,14 @@ class Scanner:
         missing: float | None = None,
         signed: bool = False,
     ) -> None:
-        _check(fan, fleet, mounts)
+        _check(fan, fleet, len(mounts))
         self.fleet, self.fan = fleet, fan
-        self.noise, self.seed, self.tick = noise, seed, 0
+        self.noise, self.seed, self.tick = noise, seed_of(seed), 0
         self._mounts = np.array(
             [[m.x, m.y, math.cos(m.yaw), math.sin(m.yaw), m.z] for m in mounts]
         ).reshape(-1, c.SENSOR)
-        self._carriers = np.array([mount.body for mount in mounts], np.int64)
+        bodies = [mount.body for mount in mounts]
+        self._carriers = indices("bodies", bodies, fleet.nbody, EngineError).astype(np.int64)
         self.owners = self._owners_in(np.arange(fleet.nworld))
         self._outline, self._middles = _outline(fan), _middles_of(fan)
         least = 2 * max(1, _SHARE // fan.count)
@@ -189,7 +193,7 @@ class Scanner:
             )
             own.next, own.way, own.step = made, way, fan.step
             own.owners, own.ranges, own.names = self.owners, self._flat, self.names
-            own.missing, own.signed, own.seed = self._missing, self._signed, self.seed
+            own.missing, own.signed, own.seed = self._missing, self._signed, self.seed % 2**63
             if self.noise is not None:
                 own.constant, own.share = self.noise.constant, self.noise.share
             made = own
@@ -206,6 +210,7 @@ class Scanner:
         """``ranges`` with one row a sensor, shape (nworld * mounts, count)."""
         return self._flat
 
+    @checked(EngineError, after=True)
     def scan(self, worlds: Worlds | None = None) -> Floats:
         """Return distances now [m], shape (n, mounts, count).
 
@@ -215,10 +220,16 @@ class Scanner:
 
         Args:
             worlds: Which worlds; all if None.
+
+        Raises:
+            EngineError: There is no such world, or they are more than there are.
         """
         owners, count = self.owners, self.fleet.nworld
         if worlds is not None:
-            owners, count = self._owners_in(worlds), len(worlds)
+            which, most = world_indices(worlds, count, EngineError), count
+            owners, count = self._owners_in(which), len(which)
+            if count > most:
+                raise EngineError(f"a scanner scans in {most} worlds, not in {count}")
         if self._alone and worlds is None:
             self._native.scan(owners, 0, len(owners), self.tick, 0)
         else:
@@ -250,9 +261,15 @@ class Scanner:
         Args:
             sensor: Of one, counted through all worlds, shape (count,); of all if None, shape as
                 ``ranges``.
+
+        Raises:
+            EngineError: There is no such sensor, or it does not remember what beams met.
         """
         table, looks = self.fleet.scene.table.rows, self.fleet.looks
-        names = self._named() if sensor is None else self._named().reshape(self.names.shape)[sensor]
+        names = self._named()
+        if sensor is not None:
+            (row,) = indices("sensors", [sensor], len(self.names), EngineError)
+            names = self.names[row]
         return np.asarray(_look_up(names, table[:, c.GLOW], looks[:, c.GLOW]), np.float64)
 
     def tags(self) -> NDArray[np.int64]:
@@ -280,14 +297,16 @@ def _look_up(names: Floats, statics: NDArray[Any], looks: NDArray[Any]) -> NDArr
     return found
 
 
-def _check(fan: Fan, fleet: Fleet, mounts: Sequence[Mount]) -> None:
+def _check(fan: Fan, fleet: Fleet, mounts: int) -> None:
     if fan.count < 1 or not fan.step > 0.0 or fan.step * (fan.count - 1) > 2.0 * math.pi + 1e-3:
         raise EngineError("a fan needs beams at growing angles, once around at most")
     if not (0.0 <= fan.begin < fan.reach < math.inf):
         raise EngineError("a fan needs a finite reach beyond where its beams begin")
-    for mount in mounts:
-        if not 0 <= mount.body < fleet.nbody:
-            raise EngineError(f"there is no body {mount.body}; there are {fleet.nbody}")
+    if fan.count > MAX_RAYS or fan.count * mounts * fleet.nworld > MAX_VALUES:
+        raise EngineError(
+            f"{mounts} fans of {fan.count} beams in {fleet.nworld} worlds are too many",
+            hint=f"a fan may have {MAX_RAYS:,} beams, all of them in all worlds {MAX_VALUES:,}",
+        )
 
 
 def _middles_of(fan: Fan) -> Floats:

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gazelle.argument_checks import indices, world_indices
-from gazelle.array_types import Floats
+from gazelle.argument_checks import checked, indices, world_indices
+from gazelle.array_types import Floats, Indices, Worlds
 from gazelle.engines.limits import MAX_WORLDS, physics_step, whole_number
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.bodies import Bodies
@@ -29,6 +29,7 @@ _CELL = 1.0  # side of the grid's cells if none is wanted [m]
 _SHARE = 64  # bodies that are worth a thread
 
 
+@checked(EngineError)
 class Fleet:
     """Bodies that drive among statics, in many copies of one world.
 
@@ -76,8 +77,6 @@ class Fleet:
         self._describe(bodies)
         first = np.array([body.pose for body in bodies], np.float64).reshape(-1, 3)
         heights = np.array([body.z for body in bodies], np.float64)
-        if not (np.isfinite(first).all() and np.isfinite(heights).all()):
-            raise EngineError("a pose must be finite")
         self._initial = _rows_of(np.column_stack((first, heights)))
         extent = first[:, :2] if len(bodies) else np.zeros((1, 2))
         side = max(cell, 2.0 * self._widest)
@@ -157,7 +156,7 @@ class Fleet:
 
     @time_step.setter
     def time_step(self, seconds: float) -> None:
-        self.bodies.dt = seconds
+        self.bodies.dt = physics_step(seconds)
 
     @property
     def sweep(self) -> bool:
@@ -218,13 +217,21 @@ class Fleet:
         """Radius of the largest body about its origin [m]."""
         return self._widest
 
-    def place(self, body: int, pose: ArrayLike, worlds: NDArray[np.intp] | None = None) -> None:
+    def place(
+        self,
+        body: int,
+        pose: ArrayLike,
+        worlds: Worlds | None = None,
+        *,
+        height: ArrayLike | None = None,
+    ) -> None:
         """Set the pose of a body, regardless of obstacles.
 
         Args:
             body: Its index.
             pose: x, y [m] and heading [rad], shape (3,) or (n, 3).
             worlds: Which worlds; all if None.
+            height: Of its frame [m], shape () or (n,); as it was if None.
 
         Raises:
             EngineError: A number is not finite, or there is no such body or world.
@@ -236,17 +243,14 @@ class Fleet:
             if worlds is None
             else world_indices(worlds, self.nworld, EngineError) * self.nbody + body
         )
-        wanted = np.asarray(pose, np.float64)
-        if not np.isfinite(wanted).all():
-            raise EngineError("a pose must be finite")
-        x, y, yaw = np.moveaxis(wanted, -1, 0)
+        x, y, yaw = np.moveaxis(np.atleast_1d(np.asarray(pose, np.float64)), -1, 0)
         self.rows[rows, c.X], self.rows[rows, c.Y], self.rows[rows, c.YAW] = x, y, yaw
         self.rows[rows, c.COS], self.rows[rows, c.SIN] = np.cos(yaw), np.sin(yaw)
+        if height is not None:
+            self.rows[rows, c.Z] = height
         self._relink(rows)
 
-    def put(
-        self, pose: ArrayLike, heights: ArrayLike, which: NDArray[np.intp] | None = None
-    ) -> None:
+    def put(self, pose: ArrayLike, heights: ArrayLike, which: Indices | None = None) -> None:
         """Set the poses of bodies.
 
         Args:
@@ -258,8 +262,6 @@ class Fleet:
             EngineError: A number is not finite, or there is no such body.
         """
         flat = np.asarray(pose, np.float64).reshape(-1, 3)
-        if not np.isfinite(flat).all():
-            raise EngineError("a pose must be finite")
         rows = (
             slice(None) if which is None else indices("bodies", which, len(self.rows), EngineError)
         )
@@ -275,20 +277,23 @@ class Fleet:
         Raises:
             EngineError: A number is not finite.
         """
-        wanted = np.asarray(rows, np.float64).reshape(-1, c.BODY)
-        if not np.isfinite(wanted).all():
-            raise EngineError("a pose must be finite")
-        self.rows[:] = wanted
+        self.rows[:] = np.asarray(rows, np.float64).reshape(-1, c.BODY)
         self._relink(slice(None))
 
     def take_over(self, body: int, other: Fleet, its: int) -> None:
-        """Copy the state of a body from another fleet with as many worlds."""
+        """Copy the state of a body from another fleet with as many worlds.
+
+        Raises:
+            EngineError: There is no such body.
+        """
+        indices("bodies", [body], self.nbody, EngineError)
+        indices("bodies", [its], other.nbody, EngineError)
         here, there = slice(body, None, self.nbody), slice(its, None, other.nbody)
         self.rows[here], self._command[here] = other.rows[there], other._command[there]
         self._velocity[here], self._stalled[here] = other._velocity[there], other._stalled[there]
         self._relink(here)
 
-    def reset(self, worlds: NDArray[np.intp] | None = None) -> None:
+    def reset(self, worlds: Worlds | None = None) -> None:
         """Reset worlds to their initial state: poses, rest, no commands.
 
         Raises:
@@ -299,7 +304,7 @@ class Fleet:
         put_back(self.bodies, np.ascontiguousarray(which), self._initial)
         self.changes += 1
 
-    def _relink(self, rows: slice | NDArray[np.intp]) -> None:
+    def _relink(self, rows: slice | Indices) -> None:
         """Update the lists of the grid for some bodies that were placed."""
         self.changes += 1
         if isinstance(rows, slice):
@@ -311,6 +316,7 @@ class Fleet:
 
     # -- time --------------------------------------------------------------------------
 
+    @checked(EngineError, after=True)
     def step(self, count: int = 1) -> None:
         """Advance every world by ``count`` steps.
 

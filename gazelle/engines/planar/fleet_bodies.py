@@ -9,6 +9,7 @@ from typing import Literal
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
 from gazelle.engines.planar import columns as c
 from gazelle.errors import EngineError
@@ -19,6 +20,7 @@ DriveKind = Literal["diff", "omni", "car"]
 _KINDS = {"diff": c.DIFFERENTIAL, "omni": c.OMNIDIRECTIONAL, "car": c.CAR}
 
 
+@checked(EngineError)
 @dataclass(frozen=True, slots=True)
 class Drive:
     """Drive of a body: its kind and limits.
@@ -32,6 +34,9 @@ class Drive:
         brake: Least acceleration [m/s², rad/s²].
         push: Greatest.
         wheelbase: Between the axles of a car [m].
+
+    Raises:
+        EngineError: A number cannot be.
     """
 
     kind: DriveKind = "diff"
@@ -42,6 +47,7 @@ class Drive:
     wheelbase: float = 1.0
 
 
+@checked(EngineError)
 @dataclass(frozen=True, slots=True)
 class Body:
     """Something that can be moved, with the same parts in every world.
@@ -52,6 +58,9 @@ class Body:
         z: Height of its frame [m].
         drive: What moves it; None for nothing but ``Fleet.place``.
         family: Bodies of one family neither see nor bump each other; None for its own.
+
+    Raises:
+        EngineError: A number cannot be.
     """
 
     parts: tuple[PlanarPart, ...]

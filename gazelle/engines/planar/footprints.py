@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from gazelle.argument_checks import indices, world_indices
 from gazelle.array_types import Floats
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.clear_space_grid import turned
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.shapes import PrimitiveTable
+from gazelle.errors import EngineError
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,8 +29,12 @@ class Footprint:
 
 
 def footprint_of(fleet: Fleet, body: int) -> Footprint:
-    """Return the solid parts of a body."""
-    kind = fleet.kinds[body]
+    """Return the solid parts of a body.
+
+    Raises:
+        EngineError: There is no such body.
+    """
+    (kind,) = fleet.kinds[indices("bodies", [body], fleet.nbody, EngineError)]
     found = Footprint([], [], float(kind[c.RADIUS]))
     for piece in fleet.pieces[int(kind[c.FIRST_PIECE]) : int(kind[c.LAST_PIECE])]:
         if piece[c.COUNT] == 0:
@@ -41,9 +47,15 @@ def footprint_of(fleet: Fleet, body: int) -> Footprint:
 
 
 def outline_of(fleet: Fleet, body: int, world: int = 0) -> PrimitiveTable:
-    """Return what rays meet of a body, in the frame of its world."""
-    first, last = fleet.kinds[body, [c.FIRST_LOOK, c.LAST_LOOK]].astype(int)
-    x, y, _, cos, sin, z = fleet.rows[world * fleet.nbody + body, :6]
+    """Return what rays meet of a body, in the frame of its world.
+
+    Raises:
+        EngineError: There is no such body or world.
+    """
+    (place,) = indices("bodies", [body], fleet.nbody, EngineError)
+    (row,) = world_indices([world], fleet.nworld, EngineError)
+    first, last = fleet.kinds[place, [c.FIRST_LOOK, c.LAST_LOOK]].astype(int)
+    x, y, _, cos, sin, z = fleet.rows[row * fleet.nbody + place, :6]
     rows = fleet.looks[first:last].copy()
     rows[:, [c.LOW, c.HIGH]] += z
     # ``turned`` gives coordinates in a frame that is at (x, y): here it is the way back.

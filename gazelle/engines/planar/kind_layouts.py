@@ -11,6 +11,7 @@ from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
 
+from gazelle.argument_checks import checked
 from gazelle.description import Model
 from gazelle.engines.planar.fleet_bodies import Body
 from gazelle.engines.planar.shapes import PrimitiveTable, primitives_of
@@ -20,6 +21,7 @@ from gazelle_ros.base.entry_points import entry_points_of, load
 _GROUP = "gazelle.engines.planar"
 
 
+@checked(EngineError)
 @dataclass(slots=True)
 class KindLayout:
     """Models of one kind in a fleet.

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Bools, Floats
 from gazelle.engines.planar import columns as c
 from gazelle.errors import EngineError
@@ -16,6 +17,7 @@ from gazelle.geometry.planar_part import PlanarPart
 from gazelle.geometry.polygons import Point, ccw, convex
 
 
+@checked(EngineError)
 @dataclass(frozen=True, slots=True)
 class Raster:
     """A bitmap that some primitives are the outline of.
@@ -39,6 +41,7 @@ class Raster:
     last: int
 
 
+@checked(EngineError, most=math.inf)
 @dataclass(frozen=True, slots=True)
 class PrimitiveTable:
     """Primitives that rays meet, and the tags of the parts they are of.
@@ -47,11 +50,21 @@ class PrimitiveTable:
         rows: Shape (n, PRIMITIVE).
         tags: Shape (n,).
         raster: The largest bitmap among them, if there is one.
+
+    Raises:
+        EngineError: The shapes do not fit, or a number cannot be.
     """
 
     rows: Floats
     tags: NDArray[np.int64]
     raster: Raster | None = None
+
+    def __post_init__(self) -> None:
+        if self.rows.shape != (len(self.tags), c.PRIMITIVE):
+            raise EngineError(
+                f"primitives need rows of {c.PRIMITIVE} numbers and as many tags, not shapes "
+                f"{self.rows.shape} and {self.tags.shape}"
+            )
 
     @property
     def segments(self) -> Floats:
@@ -75,6 +88,7 @@ class PrimitiveTable:
         return PrimitiveTable(self.rows[kept], self.tags[kept])
 
 
+@checked(EngineError, most=math.inf)
 def segments_of(
     lines: Floats, z: tuple[float, float], *, glow: float, solid: bool
 ) -> PrimitiveTable:
@@ -85,7 +99,13 @@ def segments_of(
         z: Lowest and highest height [m].
         glow: As of a ``PlanarPart``.
         solid: Whether bodies collide with it.
+
+    Raises:
+        EngineError: A line has more or fewer numbers, or one that cannot be.
     """
+    lines = np.asarray(lines, np.float64)
+    if lines.ndim != 2 or lines.shape[1] != 4:  # x0, y0, x1, y1
+        raise EngineError(f"lines must have the shape (n, 4), not {lines.shape}")
     rows = np.zeros((len(lines), c.PRIMITIVE))
     rows[:, c.X0 : c.Y1 + 1] = lines
     rows[:, c.LOW], rows[:, c.HIGH] = z
@@ -121,6 +141,7 @@ class _Rows:
     tags: list[NDArray[np.int64]] = field(default_factory=list)
 
 
+@checked(EngineError)
 def primitives_of(parts: Iterable[PlanarPart]) -> PrimitiveTable:
     """Return the segments and circles of parts.
 

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from gazelle.engines.limits import NANOSECONDS
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.rolling import Joints, Rolling, Turning
+from gazelle.errors import EngineError
 from gazelle.native.loop import SystemLoop
 from gazelle.native.system import System
 
@@ -45,6 +46,9 @@ class SystemSteps:
             systems: Updated whenever they are due, in this order.
             count: How many.
             now_ns: Time [ns].
+
+        Raises:
+            EngineError: No clock counts such a time.
         """
         if not count:
             return
@@ -52,8 +56,11 @@ class SystemSteps:
             self._kept = systems, *self._put_together(systems)
         _, loop, threads = self._kept
         loop.step = round(self._fleet.time_step * NANOSECONDS)
-        loop.time = now_ns
-        loop.run(now_ns + count * loop.step, threads)
+        try:
+            loop.time = now_ns
+            loop.run(now_ns + count * loop.step, threads)
+        except OverflowError:  # free of cost, unlike a look at the time before each step
+            raise EngineError(f"no clock counts {count} steps from {now_ns} ns") from None
         self._fleet.changes += 1
 
     def _put_together(self, systems: Sequence[System]) -> tuple[SystemLoop, int]:

@@ -261,3 +261,22 @@ def test_what_needs_forces_is_refused_with_a_hint():
             work()
     with pytest.raises(EngineError, match="did you mean"):
         engine.links[link + "x"].placement()
+
+
+@pytest.mark.parametrize("name", ["mujoco", "planar"])
+def test_refused_places_change_nothing(name):
+    engine = make_engine(name, scenes.world(scenes.ground(), scenes.burger()), 2)
+    engine.step(3)
+    before = engine.snapshot()
+    refused = [([-1], [0.0]), ([before.size], [0.0]), ([0], [math.nan]), ([0], [0.0, 1.0])]
+    calls = [lambda p=p, v=v: engine.write_state(p, np.array(v)) for p, v in refused]
+    if name == "planar":
+        engine.command(np.ones((2, 1, 3)))
+        before = engine.snapshot()
+        for which, poses in [([2], [[0.0, 0.0, 0.0]]), ([0], [[math.nan, 0.0, 0.0]]), ([0], [1.0])]:
+            calls.append(lambda w=which, p=poses: engine.place_bodies(w, p))
+    for call in calls:
+        with pytest.raises(EngineError):
+            call()
+        assert (engine.snapshot() == before).all()
+    engine.close()

@@ -132,7 +132,7 @@ def test_rays_pass_over_what_is_low_and_what_is_invisible():
 
 
 def test_what_is_met_is_told():
-    bodies = [Body(()), Body((PlanarPart.circle(0.0, 0.0, 0.5, glow=3.0, tag=9),), (2.0, 0.0, 0.0))]
+    bodies = [Body(()), Body((PlanarPart(((0.0, 0.0),), 0.5, glow=3.0, tag=9),), (2.0, 0.0, 0.0))]
     scanner = Scanner(Fleet(bodies, nworld=2), Fan.spread(6.0, 25, 9.0), [Mount(0)], named=True)
     scanner.scan()
     assert scanner.bodies()[1, 0, 12] == 1
@@ -176,14 +176,18 @@ def test_noise_has_its_deviation_and_is_the_same_again():
 
 def test_a_fan_that_cannot_be_is_refused():
     fleet = Fleet([Body(())])
-    with pytest.raises(EngineError, match="must be finite"):
+    with pytest.raises(EngineError, match="must be a finite number"):
         Fan(0.0, 1.0, 1, math.inf)
     with pytest.raises(EngineError, match="finite reach"):
         Scanner(fleet, Fan(0.0, 1.0, 1, 0.0), [Mount(0)])
     with pytest.raises(EngineError, match="once around"):
         Scanner(fleet, Fan(0.0, 0.1, 100, 3.0), [Mount(0)])
-    with pytest.raises(EngineError, match="no body 3"):
+    with pytest.raises(EngineError, match=r"bodies must be from 0 to 0, not \[3\]"):
         Scanner(fleet, FANS[0], [Mount(3)])
+    with pytest.raises(EngineError, match="too many"):
+        Scanner(fleet, Fan(0.0, 1e-9, 2**30, 3.0), [Mount(0)])
+    with pytest.raises(EngineError, match="in 1 worlds, not in 9"):
+        Scanner(fleet, FANS[0], [Mount(0)]).scan(np.zeros(9, np.intp))
 
 
 def test_a_crowd_of_statics_hides_none_that_can_be_seen():

@@ -38,7 +38,7 @@ POLYGONS = st.builds(
     polygon, SPOT, SPOT, st.floats(0.05, 2.0), st.integers(3, 6), st.floats(0.0, 6.0), HEIGHT
 )
 DISCS = st.builds(
-    lambda x, y, r, z: PlanarPart.circle(x, y, r, high=z), SPOT, SPOT, st.floats(0.05, 1.0), HEIGHT
+    lambda x, y, r, z: PlanarPart(((x, y),), r, high=z), SPOT, SPOT, st.floats(0.05, 1.0), HEIGHT
 )
 PARTS = st.one_of(POLYGONS, DISCS)
 PLACES = st.tuples(SPOT, SPOT, st.floats(-4.0, 4.0))

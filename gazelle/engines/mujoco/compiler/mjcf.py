@@ -12,6 +12,7 @@ from typing import Any
 import mujoco
 
 from gazelle.description import Plane, Pose, Visual, World
+from gazelle.engines.limits import check_world, physics_step
 from gazelle.engines.mujoco.compiler.spec import VISUAL_GROUP, CompilerInput, Draft, draft_world
 from gazelle.errors import EngineWarning
 from gazelle.kinematics.tree import TreeLink
@@ -36,7 +37,8 @@ def to_mjcf(world: World, *, time_step: float | None = None, visuals: bool = Tru
         EngineError: The world cannot be simulated.
         FormatError: A mesh cannot be read.
     """
-    step = world.profile.max_step_size if time_step is None else time_step
+    check_world(world)
+    step = physics_step(world.profile.max_step_size if time_step is None else time_step)
     draft = draft_world(CompilerInput(world, step))
     draft.spec.modelname = world.name
     _warn_of(draft)
