@@ -63,11 +63,13 @@ def say(node, view, topic, sent, latch=True):
 
     def drawn():
         view._discover()
+        display = view._displays.topics.get(topic)
+        came = display is not None and display.arrivals.count > 0
         view._picture()
-        return topic in view._drawings
+        return came
 
     until(drawn)
-    return view._drawings[topic]
+    return view._displays.topics[topic].drawing
 
 
 def on_frame(kind, frame, **fields):
@@ -81,20 +83,20 @@ def put_frames(node, view, **places):
     sent = message("tf2_msgs/TFMessage", transforms=frames)
     publisher = node.advertise("/tf", type(sent), 10, latch=True)
     publisher.publish(sent)
-    until(lambda: all(view._tree.has(name) for name in places))
+    until(lambda: all(view._context.tree.has(name) for name in places))
 
 
 def test_robots_stand_where_tf_says(node, view):
     put_frames(node, view, base_link=(1.0, 2.0), tip=(1.0, 5.0))
     view._discover()
     view._picture()
-    (robot,) = view._robots.values()
+    (robot,) = view._displays.robots.values()
     (batch,) = robot._batches._batches
     assert batch.handle.batched_positions[:, :2].tolist() == [[1.0, 2.0], [1.0, 5.0]]
     put_frames(node, view, base_link=(1.0, 3.0))
     node.set_param("/robot_description", URDF.replace("1 1 1", "2 2 2"))
     view._discover()
-    assert next(iter(view._robots.values())) is not robot
+    assert next(iter(view._displays.robots.values())) is not robot
     node.set_param("/robot_description", "<robot")
     view._discover()
     assert "robot_description" in view._status.content
@@ -116,7 +118,7 @@ def test_links_that_tf_does_not_know_go_along(node, view):
     put_frames(node, view, base_link=(1.0, 2.0))
     view._discover()
     view._picture()
-    (batch,) = next(iter(view._robots.values()))._batches._batches
+    (batch,) = next(iter(view._displays.robots.values()))._batches._batches
     assert batch.handle.batched_positions[:, :2].tolist() == [[1.0, 2.0], [1.0, 2.0]]
 
 
@@ -126,18 +128,18 @@ def test_scans_clouds_maps_paths_and_poses_are_drawn_in_their_frames(node, view)
     scan.range_min, scan.range_max, scan.ranges = 0.1, 5.0, [2.0, 3.0, float("inf"), 0.01]
     drawn = say(node, view, "/scan", scan)
     assert drawn.part("points").points == pytest.approx(np.array([[2, 0, 0], [0, 3, 0]]), abs=1e-6)
-    assert view._anchors["/scan"].position.tolist() == [1.0, 0.0, 0.0]
+    assert view._displays.topics["/scan"].anchor.position.tolist() == [1.0, 0.0, 0.0]
     lost = on_frame("geometry_msgs/PoseStamped", "nowhere")
     say(node, view, "/goal", lost)
-    assert view._anchors["/scan"].visible
-    assert not view._anchors["/goal"].visible
+    assert view._displays.topics["/scan"].anchor.visible
+    assert not view._displays.topics["/goal"].anchor.visible
     view._discover()
     assert "/goal: no transform from nowhere to map" in view._status.content
     assert "/scan: no transform" not in view._status.content
     put_frames(node, view, nowhere=(0.0, 1.0))
     view._picture()
     view._discover()
-    assert view._anchors["/goal"].visible
+    assert view._displays.topics["/goal"].anchor.visible
     assert "/goal: no transform" not in view._status.content
 
     grid = on_frame("nav_msgs/OccupancyGrid", "map", data=[0, 100, -1, 0, 50, 0])
@@ -225,7 +227,9 @@ def test_markers_of_every_type_come_and_go(node, view, kind):
     drawn = say(node, view, "/markers", markers)
     assert drawn.part("n_3") is not None
     gone = message("visualization_msgs/Marker", ns="n", id=3, action=2)
-    view._came("/markers", message("visualization_msgs/MarkerArray", markers=[gone]))
+    view._displays.topics["/markers"].receive(
+        message("visualization_msgs/MarkerArray", markers=[gone])
+    )
     view._picture()
     assert drawn.part("n_3") is None
 
@@ -247,7 +251,7 @@ def test_markers_show_mesh_files(node, view, tmp_path, monkeypatch, embedded):
     marker.scale.x, marker.scale.y, marker.scale.z = 2.0, 1.0, 1.0
     marker.color.r = marker.color.a = marker.pose.orientation.w = 1.0
     put = []
-    scene = view._server.viser.scene
+    scene = view._context.server.viser.scene
     add = scene.add_mesh_trimesh
     monkeypatch.setattr(
         type(scene), "add_mesh_trimesh",
@@ -290,7 +294,7 @@ def plan_of(names, *rows, model="r", **start):
 def test_a_plan_is_shown_by_a_ghost_until_the_robot_has_made_it(node, view):
     put_frames(node, view, base_link=(1.0, 2.0), tip=(1.0, 2.0))
     say(node, view, "/move_group/display_planned_path", plan_of(["j"], [0.0], [1.0]))
-    motion = view._motions["/move_group/display_planned_path"]
+    motion = view._displays.topics["/move_group/display_planned_path"].motion
     ghost = motion._ghost
     assert ghost.links == ("tip",)  # the base does not move
     assert ghost._frame.position.tolist() == [1.0, 2.0, 0.0]
@@ -308,7 +312,7 @@ def test_a_plan_is_shown_by_a_ghost_until_the_robot_has_made_it(node, view):
     later = [transform("map", "base_link", 1.0, 2.0), there]
     for each in later:
         each.header.stamp = Time.from_sec(2.0)
-    take_transforms(view._tree, message("tf2_msgs/TFMessage", transforms=later))
+    take_transforms(view._context.tree, message("tf2_msgs/TFMessage", transforms=later))
     view._picture()
     assert ghost.made
     assert not ghost._frame.visible
@@ -320,7 +324,7 @@ def test_plans_are_those_of_their_robots(node, view):
     node.set_param("/left/robot_description", URDF.replace('name="r"', 'name="l"'))
     node.set_param("/left/tf_prefix", "left")
     view._discover()
-    robots = view._robots
+    robots = view._displays.robots
     assert robot_of("/move_group/plan", "r", robots) is robots["/robot_description"]
     assert robot_of("/move_group/plan", "l", robots) is robots["/left/robot_description"]
     assert robot_of("/left/move_group/plan", "", robots) is robots["/left/robot_description"]
@@ -355,12 +359,12 @@ def test_what_is_wrong_with_a_plan_is_said(node, view, names, row, words):
 
 
 def test_a_bad_message_does_not_end_the_view(node, view, monkeypatch):
-    monkeypatch.setattr(type(view._server), "watched", property(lambda _: True))
-    view._server._changed.set()
+    monkeypatch.setattr(type(view._context.server), "watched", property(lambda _: True))
+    view._context.server._changed.set()
     bad = message("sensor_msgs/Image", encoding="nonsense", height=1, width=1, step=1, data=b"x")
     node.advertise("/image", type(bad), 1, latch=True).publish(bad)
     put_frames(node, view, base_link=(1.0, 2.0))
-    until(lambda: "/image" in view._drawings)
+    until(lambda: "⚠ /image: " in view._status.content)
     until(lambda: "fixed frame **map**" in view._status.content)
     assert view._thread.is_alive()
 

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gazelle.array_types import Bytes, Floats
+from gazelle.rotations import rotate
+from gazelle.viewer.graph.styles import Color, DisplayStyle
 from gazelle.viewer.page.shapes import textured_mesh
 from gazelle.viewer.sources import picture_of
 from gazelle_ros.msgs import geometry_msgs, nav_msgs, sensor_msgs
@@ -16,7 +18,7 @@ if TYPE_CHECKING:
     from viser import ViserServer
 
 _MOST = 100_000  # points of a cloud
-_RED, _GREEN, _BLUE = (210, 40, 40), (40, 160, 70), (50, 110, 190)
+_GREY = (128, 128, 128)
 _NUMBERS = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
 """Of ``PointField.datatype``."""
 _IDENTITY = np.array([1.0, 0.0, 0.0, 0.0])
@@ -29,11 +31,34 @@ class Drawing:
         page: viser's server.
         name: Of the node that it hangs on.
         topic: Its name.
+        style: Colours and sizes.
+
+    Attributes:
+        extents: Lowest and highest corner [m] of the parts that have one, in the frame of the
+            messages, shape (2, 3).
     """
 
-    def __init__(self, page: ViserServer, name: str, topic: str) -> None:
-        self.page, self.name, self.topic = page, name, topic
+    def __init__(self, page: ViserServer, name: str, topic: str, style: DisplayStyle) -> None:
+        self.page, self.name, self.topic, self.style = page, name, topic, style
+        self.extents: dict[str, Floats] = {}
         self._parts: dict[str, Any] = {}
+
+    @property
+    def color(self) -> Color:
+        """Colour of the display."""
+        return self.style.color or _GREY
+
+    @property
+    def size(self) -> float:
+        """Size of the display, above zero."""
+        return max(self.style.size or 0.0, 1e-3)
+
+    def span(self, key: str, points: Floats) -> None:
+        """Note how far a part reaches, by points [m], shape (n, 3)."""
+        if len(points):
+            self.extents[key] = np.array([points.min(axis=0), points.max(axis=0)])
+        else:
+            self.extents.pop(key, None)
 
     def put(self, key: str, make: Callable[[str], Any]) -> Any:
         """Replace a part under its key."""
@@ -47,6 +72,7 @@ class Drawing:
 
     def drop(self, key: str) -> None:
         """Remove a part."""
+        self.extents.pop(key, None)
         if key in self._parts:
             self._parts.pop(key).remove()
 
@@ -64,20 +90,25 @@ def draw_scan(drawing: Drawing, message: sensor_msgs.msg.LaserScan) -> None:
     points = np.zeros((int(seen.sum()), 3))
     points[:, 0] = ranges[seen] * np.cos(angles[seen])
     points[:, 1] = ranges[seen] * np.sin(angles[seen])
-    _points(drawing, points, np.array(_RED, np.uint8), 0.04)
+    _points(drawing, points, np.array(drawing.color, np.uint8))
 
 
 def draw_cloud(drawing: Drawing, message: sensor_msgs.msg.PointCloud2) -> None:
     """Draw points of a PointCloud2, in their colours or by their intensities if they have any."""
-    points, colors = points_of(message)
+    points, colors = points_of(message, drawing.color)
     finite = np.isfinite(points).all(axis=1)
     every = max(1, -(-int(finite.sum()) // _MOST))
     shown = colors if colors.ndim == 1 else colors[finite][::every]
-    _points(drawing, points[finite][::every], shown, 0.02)
+    _points(drawing, points[finite][::every], shown)
 
 
-def points_of(message: sensor_msgs.msg.PointCloud2) -> tuple[Floats, Bytes]:
-    """Return points of a PointCloud2 [m], shape (n, 3), and colours, shape (n, 3) or (3,)."""
+def points_of(message: sensor_msgs.msg.PointCloud2, plain: Color = _GREY) -> tuple[Floats, Bytes]:
+    """Return points of a PointCloud2 [m], shape (n, 3), and colours, shape (n, 3) or (3,).
+
+    Args:
+        message: The cloud.
+        plain: Colour of a cloud without colours and intensities.
+    """
     count = message.width * message.height
     raw = np.frombuffer(bytes(message.data), np.uint8)
     rows = np.lib.stride_tricks.as_strided(
@@ -96,7 +127,7 @@ def points_of(message: sensor_msgs.msg.PointCloud2) -> tuple[Floats, Bytes]:
     if color is None and "intensity" in fields:
         return points, rainbow(_column(rows, fields["intensity"], order))
     if color is None:
-        return points, np.array(_BLUE, np.uint8)
+        return points, np.array(plain, np.uint8)
     part = rows[:, color.offset : color.offset + 3]
     return points, np.ascontiguousarray(part[:, ::-1] if order == "<" else part)
 
@@ -140,12 +171,29 @@ def draw_map(drawing: Drawing, message: nav_msgs.msg.OccupancyGrid) -> None:
         "map",
         lambda name: drawing.page.scene.add_mesh_trimesh(name, mesh, wxyz=turn, position=place),
     )
+    x, y, z, w = *turn[1:], turn[0]
+    drawing.span("map", place + rotate(np.array([[x, y, z, w]]), corners))
 
 
 def draw_path(drawing: Drawing, message: nav_msgs.msg.Path) -> None:
     """Draw a Path as a line."""
     points = np.array([pose_of(each.pose)[0] for each in message.poses]).reshape(-1, 3)
-    _lines(drawing, "path", np.stack((points[:-1], points[1:]), axis=1), _GREEN)
+    _lines(drawing, "path", points)
+
+
+def draw_polygon(drawing: Drawing, message: geometry_msgs.msg.PolygonStamped) -> None:
+    """Draw the outline of a PolygonStamped, such as a footprint."""
+    points = np.array([[p.x, p.y, p.z] for p in message.polygon.points]).reshape(-1, 3)
+    _lines(drawing, "polygon", np.vstack((points, points[:1])))
+
+
+def draw_point(drawing: Drawing, message: geometry_msgs.msg.PointStamped) -> None:
+    """Draw a ball at a PointStamped."""
+    at = np.array([message.point.x, message.point.y, message.point.z])
+    drawing.put("point", lambda name: drawing.page.scene.add_icosphere(
+        name, drawing.size, drawing.color, position=at, cast_shadow=False
+    ))  # fmt: skip
+    drawing.span("point", at[None])
 
 
 def draw_pose(
@@ -181,28 +229,35 @@ def draw_image(
     )
 
 
-def _points(drawing: Drawing, points: Floats, colors: Bytes, size: float) -> None:
+def _points(drawing: Drawing, points: Floats, colors: Bytes) -> None:
     shown = drawing.part("points")
     if shown is not None and colors.ndim == 1:
         shown.points = points.astype(np.float32)
-        return
-    drawing.put(
-        "points",
-        lambda name: drawing.page.scene.add_point_cloud(
-            name, points, colors, point_size=size, point_shape="circle", precision="float32"
-        ),
-    )
+        shown.colors = colors
+        shown.point_size = drawing.size
+    else:
+        drawing.put(
+            "points",
+            lambda name: drawing.page.scene.add_point_cloud(
+                name, points, colors, point_size=drawing.size, point_shape="circle",
+                precision="float32",
+            ),
+        )  # fmt: skip
+    drawing.span("points", points)
 
 
-def _lines(drawing: Drawing, key: str, lines: Floats, color: tuple[int, int, int]) -> None:
+def _lines(drawing: Drawing, key: str, points: Floats) -> None:
+    """Draw lines from each point to the next."""
     drawing.drop(key)
-    if len(lines):
+    if len(points) > 1:
+        lines = np.stack((points[:-1], points[1:]), axis=1).astype(np.float32)
         drawing.put(
             key,
             lambda name: drawing.page.scene.add_line_segments(
-                name, lines.astype(np.float32), color, thickness=3.0, thickness_units="screen"
+                name, lines, drawing.color, thickness=drawing.size, thickness_units="screen"
             ),
         )
+    drawing.span(key, points)
 
 
 def _axes(drawing: Drawing, poses: list[geometry_msgs.msg.Pose]) -> None:
@@ -215,13 +270,15 @@ def _axes(drawing: Drawing, poses: list[geometry_msgs.msg.Pose]) -> None:
     if shown is not None and len(shown.batched_positions) == len(at):
         shown.batched_positions = at.astype(np.float32)
         shown.batched_wxyzs = turned.astype(np.float32)
-        return
-    drawing.put(
-        "axes",
-        lambda name: drawing.page.scene.add_batched_axes(
-            name, turned, at, axes_length=0.3, axes_radius=0.012
-        ),
-    )
+        shown.axes_length, shown.axes_radius = drawing.size, 0.04 * drawing.size
+    else:
+        drawing.put(
+            "axes",
+            lambda name: drawing.page.scene.add_batched_axes(
+                name, turned, at, axes_length=drawing.size, axes_radius=0.04 * drawing.size
+            ),
+        )
+    drawing.span("axes", at)
 
 
 def pose_of(pose: geometry_msgs.msg.Pose) -> tuple[Floats, Floats]:
@@ -233,6 +290,8 @@ def pose_of(pose: geometry_msgs.msg.Pose) -> tuple[Floats, Floats]:
 
 
 KINDS: dict[str, Callable[[Drawing, Any], None]] = {
+    "geometry_msgs/PointStamped": draw_point,
+    "geometry_msgs/PolygonStamped": draw_polygon,
     "geometry_msgs/PoseArray": draw_poses,
     "geometry_msgs/PoseStamped": draw_pose,
     "geometry_msgs/PoseWithCovarianceStamped": draw_pose,

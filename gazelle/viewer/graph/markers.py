@@ -13,6 +13,7 @@ from gazelle.errors import GazelleWarning
 from gazelle.formats.resolve import Resolver
 from gazelle.rendering import columns as c
 from gazelle.rendering.visible import visible_world
+from gazelle.rotations import rotate
 from gazelle.viewer.graph.drawing import Drawing, pose_of
 from gazelle_ros.msgs import std_msgs, visualization_msgs
 
@@ -32,6 +33,7 @@ def draw_marker(drawing: Drawing, message: visualization_msgs.msg.Marker) -> Non
         drawing.drop(key)
     else:
         _add(drawing, key, message)
+        drawing.span(key, _reach(message))
 
 
 def _add(drawing: Drawing, key: str, message: visualization_msgs.msg.Marker) -> None:
@@ -149,6 +151,15 @@ def _solid(kind: int, size: Floats, color: std_msgs.msg.ColorRGBA) -> Any:
     )
     mesh.visual = trimesh.visual.TextureVisuals(material=tone)
     return mesh
+
+
+def _reach(message: visualization_msgs.msg.Marker) -> Floats:
+    """Return the outermost points of a marker in its frame [m], shape (n, 3)."""
+    at, turned = pose_of(message.pose)
+    half = np.array([message.scale.x, message.scale.y, message.scale.z]) / 2.0
+    points = _points(message)
+    around = points if len(points) else np.array([-half, half])
+    return at + rotate(np.roll(turned, -1)[None], around)
 
 
 def _points(message: visualization_msgs.msg.Marker) -> Floats:

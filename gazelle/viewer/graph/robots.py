@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gazelle.array_types import Bools
+from gazelle.array_types import Bools, Floats
 from gazelle.description import Model, World
 from gazelle.errors import Error, GazelleWarning
 from gazelle.rotations import conjugate, multiply, rotate
@@ -17,6 +17,8 @@ from gazelle_ros.tf.errors import TransformException
 
 if TYPE_CHECKING:
     from viser import SceneApi
+
+_AROUND = 0.2  # size of a link around its origin [m]
 
 
 class DescribedRobot:
@@ -46,6 +48,14 @@ class DescribedRobot:
         self._frames = [prefix + link.rpartition("::")[2] for link in self._batches.links]
         self._at = self._batches.rest[0][None].copy()
         self._turned = self._batches.rest[1][None].copy()
+
+    @property
+    def extent(self) -> Floats | None:
+        """Lowest and highest corner around the links [m], shape (2, 3); None while tf knows none."""
+        if not self.placed:
+            return None
+        at = self._at[0]
+        return np.array([at.min(axis=0) - _AROUND, at.max(axis=0) + _AROUND])
 
     def show(self, tree: FrameTree, fixed: str) -> None:
         """Update the links from tf; unknown ones keep their pose relative to known ones."""

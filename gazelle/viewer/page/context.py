@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -11,9 +10,9 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from gazelle.array_types import Floats, Worlds
-from gazelle.errors import Error
 from gazelle.simulation import Simulation
 from gazelle.viewer.page.shapes import extent_of_world
+from gazelle.viewer.page.user_actions import UserActions
 
 if TYPE_CHECKING:
     from viser import GuiApi, SceneApi, ViserServer
@@ -22,7 +21,6 @@ ROOT = "/world"
 """Node that moves when a model is followed; everything hangs on it."""
 
 _GAP = 1.0  # between worlds that stand side by side [m]
-_log = logging.getLogger("gazelle.viewer")
 
 
 class PageLayer(Protocol):
@@ -49,7 +47,7 @@ class OptionalLayer(PageLayer, Protocol):
 
 
 @dataclass
-class PageContext:
+class PageContext(UserActions):
     """Context of a page: what it shows, and access of its parts to the simulation.
 
     Attributes:
@@ -110,30 +108,6 @@ class PageContext:
             self._announced = (self.selected, self.world)
             for listener in tuple(self.listeners):
                 listener()
-
-    def notify(self, title: str, text: str) -> None:
-        """Show a notice on every page."""
-        for client in self.page.get_clients().values():
-            client.add_notification(title, text, auto_close_seconds=6.0)
-
-    def on_user_change(self, handle: Any, work: Callable[[], None]) -> None:
-        """Call a function when a user, and not this program, changes an input of the panel."""
-
-        def changed(event: Any) -> None:
-            if event.client is not None:
-                self.careful(work)
-
-        handle.on_update(changed)
-
-    def careful(self, work: Callable[[], None]) -> None:
-        """Call a function for a user; its errors are shown on the page and stop nothing."""
-        try:
-            work()
-        except Error as error:
-            self.notify("This cannot be done", str(error))
-        except Exception as error:  # noqa: BLE001  whatever it is, the run continues
-            _log.exception("the page of a simulation failed")
-            self.notify("This failed", f"{type(error).__name__}: {error}")
 
 
 def spots_of(simulation: Simulation, count: int) -> Floats:

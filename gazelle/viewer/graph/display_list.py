@@ -1,0 +1,113 @@
+"""All displays of the page: topics of the graph that can be shown, and its robots."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from gazelle.array_types import Floats
+from gazelle.errors import Error
+from gazelle.viewer.graph.context import GraphContext
+from gazelle.viewer.graph.display import KINDS, TopicDisplay
+from gazelle.viewer.graph.robots import DescribedRobot
+
+
+class DisplayList:
+    """Displays of all topics with a type that is shown, and of all robot descriptions.
+
+    Args:
+        context: Of the page.
+
+    Attributes:
+        topics: Displays by topic.
+        robots: By the parameters of their descriptions.
+    """
+
+    def __init__(self, context: GraphContext) -> None:
+        self._context = context
+        self.topics: dict[str, TopicDisplay] = {}
+        self.robots: dict[str, DescribedRobot] = {}
+        self._refused: dict[str, tuple[str, str]] = {}
+        self._folder = context.gui.add_folder("Displays")
+
+    @property
+    def faults(self) -> list[str]:
+        """Faults of displays and robots, each with its name."""
+        context = self._context
+        return [
+            *(fault for _, fault in self._refused.values()),
+            *(f"{name}: {each.status.text}" for name, each in self.topics.items() if each.status.fault),
+            *(
+                f"{name}: no transform from any of its links to {context.fixed}, so it is not shown"
+                for name, robot in self.robots.items()
+                if not robot.placed
+            ),
+        ]  # fmt: skip
+
+    @property
+    def _all(self) -> list[TopicDisplay | DescribedRobot]:
+        return [*self.topics.values(), *self.robots.values()]
+
+    @property
+    def shown_count(self) -> int:
+        """Number of displays and robots that show something."""
+        return sum(each.extent is not None for each in self._all)
+
+    @property
+    def extent(self) -> Floats | None:
+        """Lowest and highest corner of all that is shown [m], shape (2, 3); None without any."""
+        boxes = [each.extent for each in self._all]
+        known = np.array([box for box in boxes if box is not None])
+        if not len(known):
+            return None
+        return np.array([known[:, 0].min(axis=0), known[:, 1].max(axis=0)])
+
+    def discover(self) -> None:
+        """Show topics and robots that are new, and update every status."""
+        node = self._context.node
+        published, _, _ = node.master.system_state()
+        types = dict(node.master.topic_types())
+        others = {
+            topic: len(nodes) for topic, nodes in published.items() if set(nodes) != {node.name}
+        }
+        for topic in others:
+            if types.get(topic) in KINDS and topic not in self.topics:
+                self._add(topic, types[topic])
+        for name in node.param_names():
+            if name.rpartition("/")[2] == "robot_description":
+                self._meet(name)
+        for topic, display in self.topics.items():
+            publishers = others.get(topic, 0)
+            display.report(types.get(topic, "") if publishers else "", publishers)
+
+    def draw(self) -> None:
+        """Draw what is new, all at its place."""
+        fixed = self._context.fixed
+        for display in self.topics.values():
+            display.draw()
+        for robot in self.robots.values():
+            robot.show(self._context.tree, fixed)
+        for display in self.topics.values():
+            display.place(fixed, self.robots)
+
+    def _add(self, topic: str, kind: str) -> None:
+        with self._folder:
+            self.topics[topic] = TopicDisplay(self._context, topic, kind)
+
+    def _meet(self, name: str) -> None:
+        """Read a robot_description, if it is new or another one."""
+        node = self._context.node
+        text = str(node.get_param(name, ""))
+        known = self.robots.get(name)
+        if text in (None if known is None else known.text, self._refused.get(name, ("",))[0]):
+            return
+        self._refused.pop(name, None)
+        if known is not None:
+            self.robots.pop(name).remove()
+        prefix = str(node.get_param(f"{name.rpartition('/')[0]}/tf_prefix", "")).strip("/")
+        root = f"/robots/{len(self.robots)}"
+        try:
+            self.robots[name] = DescribedRobot(
+                self._context.scene, root, text, f"{prefix}/" if prefix else ""
+            )
+        except Error as error:
+            self._refused[name] = text, f"{name}: {error}"
