@@ -180,10 +180,10 @@ class BaseController(Controller):
     def wake_ns(self) -> float:
         """Return the next time to publish, if there are subscribers."""
         for port in self._prompt:
-            if port.wanted:
+            if port.has_subscribers:
                 return 0.0
         for port in self._published:
-            if port.wanted:
+            if port.has_subscribers:
                 return self.schedule.next_ns
         return math.inf
 

@@ -80,8 +80,8 @@ class PidControl(Controller):
 
     def wake_ns(self) -> float:
         """Return 0 while there are subscribers: update always."""
-        subscribed = any(port.wanted for port in self._statuses)
-        subscribed = subscribed or (self._states is not None and self._states.wanted)
+        subscribed = any(port.has_subscribers for port in self._statuses)
+        subscribed = subscribed or (self._states is not None and self._states.has_subscribers)
         return 0.0 if subscribed else math.inf
 
     def catch_up(self, updates: int, period: float) -> None:

@@ -105,7 +105,7 @@ class StatePort(Generic[T]):
         self._listeners: list[Callable[[T], None]] = []
 
     @property
-    def wanted(self) -> bool:
+    def has_subscribers(self) -> bool:
         """True if there are listeners."""
         return bool(self._listeners)
 

@@ -44,7 +44,7 @@ class PublishingController(Controller):
     def wake_ns(self) -> float:
         """Return the next time to publish."""
         fresh = self.schedule.next_ns == 0.0
-        needed = fresh or any(port.wanted for port in self.ports)
+        needed = fresh or any(port.has_subscribers for port in self.ports)
         return self.schedule.next_ns if needed else math.inf
 
     def catch_up(self, updates: int, period: float) -> None:  # noqa: ARG002  its schedule knows

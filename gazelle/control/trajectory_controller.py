@@ -176,7 +176,7 @@ class JointTrajectoryController(Controller):
         """Return 0 while goals have subscribers, else the next time to publish."""
         if any(goal.watched for goal in self._goals.values()):
             return 0.0
-        return self._state_due.next_ns if self._state_port.wanted else math.inf
+        return self._state_due.next_ns if self._state_port.has_subscribers else math.inf
 
     @property
     def patient(self) -> bool:

@@ -54,7 +54,7 @@ class Contain(WorldPlugin):
     @property
     def active(self) -> bool:
         """True if it is enabled and has subscribers."""
-        return self._enabled and self._output.wanted
+        return self._enabled and self._output.has_subscribers
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  it looks at every step
         """Publish a change of contents."""

@@ -46,7 +46,7 @@ class HandOfGod(ModelPlugin):
     @property
     def active(self) -> bool:
         """True if there are frames or subscribers."""
-        return self._frames.any or self._actual.wanted
+        return self._frames.any or self._actual.has_subscribers
 
     def _receive_static(self, transforms: Transforms, worlds: Worlds | None) -> None:
         self._frames.receive(transforms, worlds, static=True)

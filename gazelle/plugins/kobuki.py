@@ -135,13 +135,13 @@ class Kobuki(ModelPlugin):
     def publish(self, measured: Odometry | None) -> None:
         """Publish, with the odometry as it was measured."""
         self._states.publish()
-        if self._imu_data.wanted:
+        if self._imu_data.has_subscribers:
             self._imu_data.hand(self._reading(self.felt.copy()))
         self.odometry.publish(measured)
         times, now_ns = self._core_times, self._clock.now_ns
-        core_due = self._core.wanted and times.is_due(now_ns)
+        core_due = self._core.has_subscribers and times.is_due(now_ns)
         for events in (self._cliffs, self._bumpers):
-            if core_due or events.wanted:
+            if core_due or events.has_subscribers:
                 events.publish()
         if core_due:
             times.done(now_ns)

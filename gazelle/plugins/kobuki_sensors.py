@@ -61,9 +61,9 @@ class Cliffs:
         return np.clip(_SCALE * np.arctan2(self._distances, _HEIGHT), 0, 65535)
 
     @property
-    def wanted(self) -> bool:
+    def has_subscribers(self) -> bool:
         """True if there are subscribers."""
-        return any(output.wanted for output in self._outputs)
+        return any(output.has_subscribers for output in self._outputs)
 
     def publish(self) -> None:
         """Measure, and publish changes."""
@@ -114,9 +114,9 @@ class Bumpers:
         return lambda: BumperValue(place, self.pressed[:, place].copy())
 
     @property
-    def wanted(self) -> bool:
+    def has_subscribers(self) -> bool:
         """True if there are subscribers."""
-        return any(output.wanted for output in self._outputs)
+        return any(output.has_subscribers for output in self._outputs)
 
     def publish(self) -> None:
         """Update contacts, and publish changes."""

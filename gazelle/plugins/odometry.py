@@ -124,24 +124,26 @@ class OdometryOutputs:
             )
 
     @property
-    def wanted(self) -> bool:
+    def has_subscribers(self) -> bool:
         """True if either has subscribers."""
         odom, frame = self._odom, self._frame
-        return (odom is not None and odom.wanted) or (frame is not None and frame.wanted)
+        return (odom is not None and odom.has_subscribers) or (
+            frame is not None and frame.has_subscribers
+        )
 
     def publish(self, measured: Odometry | None = None) -> None:
         """Publish the odometry to all subscribers, if there are any.
 
         It is measured unless given.
         """
-        if self.wanted:
+        if self.has_subscribers:
             self.hand(measured or self._measure())
 
     def hand(self, odometry: Odometry) -> None:
         """Publish a measured odometry to all subscribers."""
-        if self._odom is not None and self._odom.wanted:
+        if self._odom is not None and self._odom.has_subscribers:
             self._odom.hand(odometry)
-        if self._frame is not None and self._frame.wanted:
+        if self._frame is not None and self._frame.has_subscribers:
             self._frame.hand(as_transforms(odometry))
 
 
@@ -179,7 +181,7 @@ def measure_wanted(outputs: Sequence[OdometryOutputs | None]) -> list[Odometry |
     found: list[Odometry | None] = [None] * len(outputs)
     wanted: dict[type[OdometrySource], dict[int, OdometrySource]] = {}
     for i, each in enumerate(outputs):
-        if each is not None and each.source is not None and each.wanted:
+        if each is not None and each.source is not None and each.has_subscribers:
             wanted.setdefault(type(each.source), {})[i] = each.source
     for kind, sources in wanted.items():
         for i, odometry in zip(sources, kind.measure_all(list(sources.values())), strict=True):

@@ -60,7 +60,7 @@ class VacuumGripper(ModelPlugin):
     @property
     def active(self) -> bool:
         """True if it is on, holds anything, or has subscribers."""
-        return bool(self._on.any()) or bool(self._drawn) or self._output.wanted
+        return bool(self._on.any()) or bool(self._drawn) or self._output.has_subscribers
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  it acts at every step
         """Attract near links, and publish whether there are any."""

@@ -15,7 +15,7 @@ class Published(Protocol):
     """An output, or several that are published together."""
 
     @property
-    def wanted(self) -> bool:
+    def has_subscribers(self) -> bool:
         """True while it has subscribers."""
 
     def publish(self) -> None:

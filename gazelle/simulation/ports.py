@@ -8,6 +8,7 @@ costs nothing without subscribers.
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Mapping
 from enum import Enum
 from types import MappingProxyType
@@ -266,9 +267,17 @@ class Output(StatePart, Generic[T]):
         self._listeners: list[Callable[[T], None]] = []
 
     @property
-    def wanted(self) -> bool:
+    def has_subscribers(self) -> bool:
         """True if there are subscribers."""
         return bool(self._listeners)
+
+    @property
+    def wanted(self) -> bool:
+        """True if there are subscribers; deprecated, use `has_subscribers`."""
+        warnings.warn(
+            DeprecationWarning("Output.wanted is called has_subscribers now"), stacklevel=2
+        )
+        return self.has_subscribers
 
     @property
     @between_steps

@@ -81,7 +81,7 @@ class ScheduledPlugin:
         return kind is not None and (kind.acts or self.is_subscribed)
 
     def _has_subscribers(self) -> bool:
-        return any(output.wanted for output in self.plugin.published)
+        return any(output.has_subscribers for output in self.plugin.published)
 
     def publish(self, system: PluginSystem[Any], measured: Any) -> None:
         """Publish what was measured for it."""

@@ -291,7 +291,7 @@ class SensorOutput(Output[Any]):
 
         def finish() -> None:
             end()
-            if not self.wanted and self._asleep is not None:
+            if not self.has_subscribers and self._asleep is not None:
                 self._asleep()
                 self._asleep = None
 
@@ -299,7 +299,7 @@ class SensorOutput(Output[Any]):
 
     def _on_reading(self, _sensor: SampledSensor) -> None:
         """Publish a new reading; stops for good if the plugin cannot read it."""
-        if self._failed or not self.wanted:
+        if self._failed or not self.has_subscribers:
             return
         try:
             value = self._produce()

@@ -394,11 +394,11 @@ def test_outputs_are_plotted_while_they_are_chosen():
             assert "turtlebot3_burger: odom" in plots._port.options
             plots._port.value = "turtlebot3_burger: odom"
             plots._choose()
-            assert robot.outputs["odom"].wanted
+            assert robot.outputs["odom"].has_subscribers
             sim.run(1.0)
             pictures(view)
             assert len(plots._chart.data[0]) > 5
-        assert not robot.outputs["odom"].wanted
+        assert not robot.outputs["odom"].has_subscribers
 
 
 def test_nobody_who_looks_costs_nothing(room, monkeypatch):

@@ -41,7 +41,7 @@ class ClockPublisher(BasePlugin):
     @property
     def active(self) -> bool:
         """True if there are subscribers."""
-        return self._publisher.has_listener
+        return self._publisher.has_subscribers
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  the context knows the time
         """Publish the time."""
@@ -49,7 +49,7 @@ class ClockPublisher(BasePlugin):
 
     def publish(self) -> None:
         """Publish the time."""
-        if self._publisher.has_listener:
+        if self._publisher.has_subscribers:
             now = self._context.now()
             self._outbox.add(_STAMP.pack(now.secs, now.nsecs))
 
@@ -90,7 +90,7 @@ class StatesPublisher(BasePlugin):
     @property
     def active(self) -> bool:
         """True if there are subscribers."""
-        return self._models.has_listener or self._links.has_listener
+        return self._models.has_subscribers or self._links.has_subscribers
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  messages have no time
         """Publish."""
@@ -101,7 +101,7 @@ class StatesPublisher(BasePlugin):
         tables = self._tables or self._make_tables()
         publishers = (self._models, self._links)
         for publisher, table, outbox in zip(publishers, tables, self._outboxes, strict=True):
-            if publisher.has_listener:
+            if publisher.has_subscribers:
                 outbox.add(table.packed())
 
     def flush(self) -> None:
@@ -184,7 +184,7 @@ class PerformancePublisher(BasePlugin):
     @property
     def active(self) -> bool:
         """True if there are subscribers."""
-        return self._publisher.has_listener
+        return self._publisher.has_subscribers
 
     def on_update(self, time: float) -> None:
         """Measure since the last time and publish."""

@@ -55,7 +55,7 @@ class PlannerTopics:
         self._plans.publish(path_message(plan, self._planner.costmap.frame, now))
 
     def _publish_potential(self, potentials: Floats32) -> None:
-        if not self._potentials.has_listener:
+        if not self._potentials.has_subscribers:
             return
         costmap = self._planner.costmap
         shown = scaled(potentials, self._scale)

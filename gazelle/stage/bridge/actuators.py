@@ -50,7 +50,7 @@ class ActuatorTopics:
     def publish(self) -> None:
         """Publish what has subscribers."""
         for which, publisher in enumerate(self._publishers):
-            if publisher.has_listener:
+            if publisher.has_subscribers:
                 position = self._actuator(which).position[self._world]
                 publisher.publish(self._number(float(position)))
 

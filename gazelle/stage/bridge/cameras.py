@@ -32,12 +32,12 @@ class _Eye:
     @property
     def watched(self) -> bool:
         """True if an image topic has subscribers."""
-        return bool(self.image.has_listener or self.depth.has_listener)
+        return bool(self.image.has_subscribers or self.depth.has_subscribers)
 
     @property
-    def wanted(self) -> bool:
+    def has_subscribers(self) -> bool:
         """True if any of its topics has subscribers."""
-        return bool(self.watched or self.info.has_listener)
+        return bool(self.watched or self.info.has_subscribers)
 
 
 class CameraTopics:
@@ -78,11 +78,11 @@ class CameraTopics:
         for eye in self._eyes:
             if eye.watched:
                 seen = self._simulation.picture(self._robot.name, eye.which, self._world)
-                if eye.image.has_listener:
+                if eye.image.has_subscribers:
                     self._send(eye, eye.image, stamp, "rgba8", seen.color)
-                if eye.depth.has_listener:
+                if eye.depth.has_subscribers:
                     self._send(eye, eye.depth, stamp, *self._depths(eye, seen.depth))
-            if eye.wanted:
+            if eye.has_subscribers:
                 eye.info.publish(self._lens(eye, stamp))
 
     def places(self) -> list[tuple[str, tuple[float, float, float], tuple[float, ...]]]:
@@ -90,7 +90,7 @@ class CameraTopics:
         return [
             (eye.frame, (eye.camera.pose.x, eye.camera.pose.y, eye.camera.pose.z), _optical(eye))
             for eye in self._eyes
-            if eye.wanted
+            if eye.has_subscribers
         ]
 
     def close(self) -> None:

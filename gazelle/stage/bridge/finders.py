@@ -50,7 +50,7 @@ class FinderTopics:
     def publish(self, stamp: Time) -> None:
         """Publish what has subscribers."""
         for topic in self._topics:
-            if topic.publisher.has_listener:
+            if topic.publisher.has_subscribers:
                 message: Any = topic.publisher.message_class()
                 message.header.stamp, message.header.frame_id = stamp, self._frame
                 topic.fill(message)

@@ -44,7 +44,7 @@ class GripperTopics:
     def publish(self, stamp: Time) -> None:
         """Publish what has subscribers."""
         for which, publisher in enumerate(self._publishers):
-            if publisher.has_listener:
+            if publisher.has_subscribers:
                 state = self._simulation.gripper(self._robot.name, which).state(self._world)
                 message = self._state()
                 message.header.stamp, message.header.frame_id = stamp, self._frame

@@ -111,7 +111,7 @@ class StageInterface(Closeable):
             self._stage.draw(watched)
         for topics in self._topics:
             topics.publish(facts)
-        if self._tf.has_listener and self._topics:
+        if self._tf.has_subscribers and self._topics:
             message = tf2_msgs.msg.TFMessage()
             for topics in self._topics:
                 message.transforms += topics.transforms(facts)
@@ -128,7 +128,7 @@ class StageInterface(Closeable):
 
     def _tick(self) -> None:
         """Publish the time; zero means to ROS that there is none."""
-        if self._clock.has_listener and (now := self.now()).to_nsec() > 0:
+        if self._clock.has_subscribers and (now := self.now()).to_nsec() > 0:
             message = rosgraph_msgs.msg.Clock()
             message.clock = now
             self._clock.publish(message)

@@ -119,17 +119,17 @@ class RobotTopics:
     def publish(self, facts: Facts) -> None:
         """Publish the present values to all subscribers."""
         i = self._robot.index
-        if self._odom.has_listener:
+        if self._odom.has_subscribers:
             self._odom.publish(self._odometry(facts, facts.odometry[i], facts.velocity[i]))
-        if self._truth.has_listener:
+        if self._truth.has_subscribers:
             message = self._odometry(facts, facts.pose[i], facts.true_velocity[i])
             self._truth.publish(message)
-        if self._stall.has_listener:
+        if self._stall.has_subscribers:
             self._stall.publish(self._messages.bool(facts.stalled[i]))
-        if self._crashed.has_listener:
+        if self._crashed.has_subscribers:
             self._crashed.publish(self._messages.int8(int(facts.stalled[i])))
         for laser in self._lasers:
-            if laser.publisher.has_listener:
+            if laser.publisher.has_subscribers:
                 laser.publisher.publish(self._scan(facts, laser))
         self.cameras.publish(facts.stamp)
         self._finders.publish(facts.stamp)

@@ -326,7 +326,7 @@ class Publisher:
         return self.publication.num_connections
 
     @property
-    def has_listener(self) -> bool:
+    def has_subscribers(self) -> bool:
         """True if a message published now would go anywhere."""
         return self.publication.num_connections > 0
 

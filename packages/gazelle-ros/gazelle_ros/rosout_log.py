@@ -99,7 +99,7 @@ class RosoutLog(logging.Handler):
             log.header.stamp = Time(nsecs=self._node.clock.now())
             log.topics = [each.topic for each in self._node.publications()]
             self._kept.append(log)
-            if self._publisher.has_listener:
+            if self._publisher.has_subscribers:
                 self._send()
         finally:
             self._inside.busy = False

@@ -23,7 +23,7 @@ KINDS = {
 def wait_until_heard(graph):
     def heard():
         outputs = graph.sim.robots["r1"].outputs.values()
-        return all(output.wanted for output in outputs)
+        return all(output.has_subscribers for output in outputs)
 
     until(heard)
 
@@ -102,8 +102,8 @@ def test_after_a_reset_one_consistent_set_is_published_before_the_answer(graph):
 def test_a_topic_that_nobody_listens_to_costs_nothing(graph):
     graph.client.listen("/odom", "nav_msgs/Odometry")
     outputs = graph.sim.robots["r1"].outputs
-    until(lambda: outputs["odom"].wanted)
-    assert not outputs["scan"].wanted
+    until(lambda: outputs["odom"].has_subscribers)
+    assert not outputs["scan"].has_subscribers
     assert not graph.sim.robots["r1"].sensors["lds_lfcd_sensor"].awake
 
 

@@ -173,7 +173,7 @@ def test_a_servo_turns_to_the_orientation_of_a_message():
 def test_a_reset_is_told_once_and_nothing_else_is():
     with running(block(plugin=plugin("libhector_gazebo_reset_plugin.so"))) as graph:
         heard = graph.client.listen("/syscommand", "std_msgs/String")
-        wait(lambda: graph.sim.robots["cube"].outputs["syscommand"].wanted)
+        wait(lambda: graph.sim.robots["cube"].outputs["syscommand"].has_subscribers)
         graph.client.call("pause_physics", "std_srvs/Empty")
         graph.client.call("/gazelle/step", "gazelle_msgs/Step", steps=3)
         graph.client.call("reset_simulation", "std_srvs/Empty")
@@ -250,7 +250,7 @@ def test_a_kobuki_hears_and_tells_in_its_own_messages():
     with running(kobuki(), GROUND) as graph:
         robot = graph.sim.robots["base"]
         cliffs = graph.client.listen("/mobile_base/events/cliff", "kobuki_msgs/CliffEvent")
-        wait(lambda: robot.outputs["cliff_center"].wanted)
+        wait(lambda: robot.outputs["cliff_center"].has_subscribers)
         robot.set_pose((0.0, 0.0, 0.6))
         wait(lambda: any((event.sensor, event.state) == (1, 1) for event in cliffs))
         assert all(event.bottom > 0 for event in cliffs)
@@ -270,7 +270,7 @@ def test_a_kobuki_tells_of_bumps():
     wall = WALL.replace("1.1 0 0.5", "0.42 0 0.1").replace("0.2 4 2", "0.2 0.1 0.2")
     with running(kobuki(velocity_command_timeout="100"), wall, GROUND) as graph:
         bumps = graph.client.listen("/mobile_base/events/bumper", "kobuki_msgs/BumperEvent")
-        wait(lambda: graph.sim.robots["base"].outputs["bumper_center"].wanted)
+        wait(lambda: graph.sim.robots["base"].outputs["bumper_center"].has_subscribers)
         ahead = load_message("geometry_msgs/Vector3")(0.3, 0.0, 0.0)
         send(graph, "/mobile_base/commands/velocity", "geometry_msgs/Twist", linear=ahead)
         wait(lambda: any((event.bumper, event.state) == (1, 1) for event in bumps))

@@ -40,7 +40,7 @@ class RosoutAggregator:
         self._node.close()
 
     def _pass_on(self, message: rosgraph_msgs.msg.Log) -> None:
-        if self._publisher.has_listener:
+        if self._publisher.has_subscribers:
             self._publisher.publish(message)
 
 

@@ -45,7 +45,7 @@ class SharedPublisher:
     def publish(self, message: Any) -> None:
         """Publish a message."""
         with self._lock:
-            if self._held is not None and not self._publisher.has_listener:
+            if self._held is not None and not self._publisher.has_subscribers:
                 self._held.append(message)
                 return
             self._send_held()

@@ -100,7 +100,7 @@ class CompressedPublisher:
         Raises:
             RosError: It cannot be compressed.
         """
-        if self._publisher.has_listener:
+        if self._publisher.has_subscribers:
             self._publisher.publish(compress(image, self._tuned.settings))
 
 

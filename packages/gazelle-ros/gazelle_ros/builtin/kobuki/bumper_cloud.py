@@ -68,7 +68,7 @@ class BumperCloud(CallbackWork):
 
     def _take(self, state: kobuki_msgs.msg.SensorState) -> None:
         touches = bool(state.bumper or state.cliff)
-        if not self._output.has_listener or not (touches or self._touched):
+        if not self._output.has_subscribers or not (touches or self._touched):
             return
         self._touched = touches
         header = std_msgs.msg.Header(
