@@ -77,14 +77,64 @@ def test_what_cannot_be_converted_is_an_error(bridge):
         bridge.cv2_to_imgmsg([[1]])
 
 
-def test_grey_from_colours_asks_for_opencv_or_uses_it(bridge):
-    message = bridge.cv2_to_imgmsg(COLOURS, "rgb8")
+def test_grey_weighs_colours_as_opencv_does(bridge):
+    colours = np.array([[[255, 0, 0], [0, 255, 0], [0, 0, 255], [255, 255, 255], [10, 20, 30]]])
+    message = bridge.cv2_to_imgmsg(colours.astype(np.uint8), "rgb8")
+    assert bridge.imgmsg_to_cv2(message, "mono8").tolist() == [[76, 150, 29, 255, 18]]
+    deep = bridge.cv2_to_imgmsg((colours * 257).astype(np.uint16), "rgb16")
+    assert bridge.imgmsg_to_cv2(deep, "mono16")[0, 3] == 65535
+    assert bridge.imgmsg_to_cv2(deep, "mono8").tolist() == [[76, 150, 29, 255, 18]]
+
+
+MOSAICS = ["rggb", "bggr", "gbrg", "grbg"]
+
+
+def mosaic_of(colours, order):
+    """Return the mosaic of an image in red, green and blue."""
+    made = np.empty(colours.shape[:2], colours.dtype)
+    for place, colour in enumerate(order):
+        some = slice(place // 2, None, 2), slice(place % 2, None, 2)
+        made[some] = colours[(*some, "rgb".index(colour))]
+    return made
+
+
+@pytest.mark.parametrize("kind", ["u1", "u2"])
+@pytest.mark.parametrize("order", MOSAICS)
+def test_a_mosaic_of_slopes_has_its_colours_again(bridge, order, kind):
+    """Means of neighbours are exact where colours change evenly; the rim is that beside it."""
+    rows, columns = np.mgrid[0:9, 0:12]
+    colours = np.stack([4 * columns, 60 + 2 * rows, 120 - 2 * columns], axis=-1).astype(kind)
+    bits = 8 if kind == "u1" else 16
+    message = bridge.cv2_to_imgmsg(mosaic_of(colours, order), f"bayer_{order}{bits}")
+    found = bridge.imgmsg_to_cv2(message, f"rgb{bits}")
+    np.testing.assert_array_equal(found[1:-1, 1:-1], colours[1:-1, 1:-1])
+    np.testing.assert_array_equal(found[0], found[1])
+    np.testing.assert_array_equal(found[:, -1], found[:, -2])
+    turned = bridge.imgmsg_to_cv2(message, f"bgr{bits}")
+    np.testing.assert_array_equal(turned, found[..., ::-1])
+
+
+@pytest.mark.parametrize("order", MOSAICS)
+def test_a_mosaic_has_the_colours_that_opencv_finds(order):
+    cv2 = pytest.importorskip("cv2")
+    demosaic = importlib.import_module("cv_bridge.mosaics").demosaic
+    image = np.random.default_rng(3).integers(0, 256, (10, 13), np.uint8)
+    # OpenCV names mosaics by the second row, beginning with its second pixel.
+    letters = {"rggb": "BG", "bggr": "RG", "gbrg": "GR", "grbg": "GB"}[order]
+    wanted = cv2.cvtColor(image, getattr(cv2, f"COLOR_Bayer{letters}2RGB"))
+    np.testing.assert_array_equal(demosaic(image, order), wanted)
+
+
+def test_yuv_asks_for_opencv_or_uses_it(bridge):
+    message = load_message("sensor_msgs/Image")(
+        height=1, width=2, step=4, encoding="yuv422", data=bytes([128, 90, 128, 90])
+    )
     if importlib.util.find_spec("cv2") is None:
         error = importlib.import_module("cv_bridge").CvBridgeError
         with pytest.raises(error, match="pip install opencv"):
-            bridge.imgmsg_to_cv2(message, "mono8")
+            bridge.imgmsg_to_cv2(message, "bgr8")
     else:
-        assert bridge.imgmsg_to_cv2(message, "mono8").shape == (2, 4)
+        assert bridge.imgmsg_to_cv2(message, "bgr8").shape == (1, 2, 3)
 
 
 def test_types_have_opencvs_numbers():

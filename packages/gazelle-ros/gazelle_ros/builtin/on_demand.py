@@ -11,39 +11,46 @@ from gazelle_ros.publishing import Publisher
 from gazelle_ros.subscribing import Subscriber
 
 
-class OnDemandPublisher:
-    """Publisher that subscribes to its sources while it has subscribers itself.
+class OnDemandOutputs:
+    """Publishers that subscribe to their sources while one of them has subscribers itself.
 
     Args:
         node: On the graph.
-        topic: To publish on.
-        kind: Class of the messages.
+        topics: To publish on, each with the class of its messages.
         begin: Subscribes to the sources.
     """
 
     def __init__(
-        self, node: Node, topic: str, kind: Any, begin: Callable[[], Sequence[Subscriber]]
+        self,
+        node: Node,
+        topics: Sequence[tuple[str, Any]],
+        begin: Callable[[], Sequence[Subscriber]],
     ) -> None:
         self._begin = begin
         self._lock = threading.Lock()
         self._sources: Sequence[Subscriber] = ()
-        self._publisher: Publisher | None = None
-        self._publisher = node.advertise(
-            topic, kind, on_connect=self._look, on_disconnect=self._look
-        )
-        self._look("")  # one may have connected before there was a publisher
+        self._publishers: Sequence[Publisher] = ()
+        self._publishers = [
+            node.advertise(topic, kind, on_connect=self._look, on_disconnect=self._look)
+            for topic, kind in topics
+        ]
+        self._look("")  # one may have connected before there were all publishers
 
-    def publish(self, message: Any) -> None:
-        """Publish a message."""
-        if self._publisher is not None:
-            self._publisher.publish(message)
+    @property
+    def wanted(self) -> list[bool]:
+        """Topics that have subscribers, in their order."""
+        return [each.has_listener for each in self._publishers]
+
+    def publish(self, *messages: Any) -> None:
+        """Publish a message on each topic; none where it is None."""
+        for publisher, message in zip(self._publishers, messages, strict=False):
+            if message is not None:
+                publisher.publish(message)
 
     def _look(self, _peer: str) -> None:
-        """Subscribe to the sources or unsubscribe, as the topic has subscribers or not."""
+        """Subscribe to the sources or unsubscribe, as a topic has subscribers or none has."""
         with self._lock:
-            if self._publisher is None:
-                return
-            wanted = self._publisher.num_connections > 0
+            wanted = any(each.num_connections > 0 for each in self._publishers)
             if wanted and not self._sources:
                 self._sources = self._begin()
             elif not wanted:

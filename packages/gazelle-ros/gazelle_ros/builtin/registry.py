@@ -51,6 +51,12 @@ _OWN = {
         BuiltinPackage("depthimage_to_laserscan", {
             "depthimage_to_laserscan": "gazelle_ros.builtin.scans.depth_image:main",
         }, {"DepthImageToLaserScanNodelet": "gazelle_ros.builtin.scans.depth_image:DepthImageToLaserScan"}),
+        BuiltinPackage("image_proc", {"image_proc": "gazelle_ros.builtin.images.image_proc:main"}, {
+            "rectify": "gazelle_ros.builtin.images.rectify:Rectify",
+            "debayer": "gazelle_ros.builtin.images.debayer:Debayer",
+            "crop_decimate": "gazelle_ros.builtin.images.crop_decimate:CropDecimate",
+            "resize": "gazelle_ros.builtin.images.resize:Resize",
+        }),
         BuiltinPackage("image_transport", {"republish": "gazelle_ros.builtin.images.republish:main"}),
         BuiltinPackage("imu_complementary_filter", {
             "complementary_filter_node": "gazelle_ros.builtin.imu.node:complementary_main",

@@ -9,7 +9,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Collection
 from typing import Any, Generic, TypeVar
 
-from gazelle_ros.builtin.on_demand import OnDemandPublisher
+from gazelle_ros.builtin.on_demand import OnDemandOutputs
 from gazelle_ros.node import Node
 from gazelle_ros.tf import FrameTree, StampedTransform, TransformException
 from gazelle_ros.tf.listening import FrameListener
@@ -118,7 +118,7 @@ class FramedConversion(StampedWork[StampedTransform]):
         def begin() -> list[Any]:
             return [node.subscribe(*source, self.queue.add, queue_size)]
 
-        self._output = OnDemandPublisher(node, *output, begin)
+        self._output = OnDemandOutputs(node, [output], begin)
 
     def find(self, message: Any) -> StampedTransform:
         """Return the transform of a message.

@@ -2,31 +2,27 @@
 
 from __future__ import annotations
 
-import logging
-import math
-import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from gazelle_ros import names
-from gazelle_ros.builtin.arguments import CallbackWork, run_node
-from gazelle_ros.builtin.on_demand import OnDemandPublisher
+from gazelle_ros.builtin.arguments import run_node
+from gazelle_ros.builtin.images.conversion import (
+    TRANSPORT_PARAMETERS,
+    ImageConversion,
+    camera_topics,
+)
 from gazelle_ros.builtin.parameters import settings_of
 from gazelle_ros.builtin.tuned_settings import TunedSettings, tunable
-from gazelle_ros.compat.cv_bridge import CvBridge, CvBridgeError
-from gazelle_ros.compat.message_filters import SimpleFilter, TimeSynchronizer
+from gazelle_ros.compat.cv_bridge import CvBridge
 from gazelle_ros.msgs import sensor_msgs, std_msgs
 from gazelle_ros.node import Node
-from gazelle_ros.subscribing import Subscriber
 
 _UNITS = {"16UC1": 0.001, "32FC1": 1.0}
 """Length of a unit of each encoding [m]."""
 _KEPT = 10
-_QUIET_S = 1.0
-_LOG = logging.getLogger("gazelle.ros.scans")
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +46,7 @@ class DepthScanSettings:
     )
 
 
-class DepthImageToLaserScan(CallbackWork):
+class DepthImageToLaserScan(ImageConversion):
     """Depth images of ``image`` as ``scan``, while that has subscribers.
 
     The camera is described by ``camera_info`` in the namespace of the images.
@@ -63,38 +59,18 @@ class DepthImageToLaserScan(CallbackWork):
     """
 
     def __init__(self, node: Node) -> None:
-        super().__init__(node)
-        self.settings = settings_of(
-            node, DepthScanSettings, others=("image_transport", "compressed_image_transport")
+        self._tuned = TunedSettings(
+            node,
+            settings_of(node, DepthScanSettings, others=TRANSPORT_PARAMETERS),
+            lambda _settings: None,
         )
-        self._images, self._cameras = SimpleFilter(), SimpleFilter()
-        TimeSynchronizer([self._images, self._cameras], _KEPT).registerCallback(self._convert)
-        self._warned = -math.inf
-        self._tuned = TunedSettings(node, self.settings, self._change)
-        self._output = OnDemandPublisher(node, "scan", sensor_msgs.msg.LaserScan, self._begin)
-
-    def _begin(self) -> list[Subscriber]:
-        image = self.node.resolve("image")
-        camera = names.namespace_of(image) + "camera_info"
-        kinds = sensor_msgs.msg
-        return [
-            self.node.subscribe(image, kinds.Image, self._images.signalMessage, _KEPT),
-            self.node.subscribe(camera, kinds.CameraInfo, self._cameras.signalMessage, _KEPT),
-        ]
-
-    def _change(self, settings: DepthScanSettings) -> None:
-        self.settings = settings
-
-    def _convert(self, image: sensor_msgs.msg.Image, camera: sensor_msgs.msg.CameraInfo) -> None:
-        try:
-            scan = scan_of_image(self.settings, image, camera)
-        except (ValueError, CvBridgeError) as error:
-            now = time.monotonic()
-            if now - self._warned > _QUIET_S:
-                self._warned = now
-                _LOG.warning("a depth image cannot be converted: %s", error)
-            return
-        self._output.publish(scan)
+        super().__init__(
+            node,
+            camera_topics(node, "image"),
+            [("scan", sensor_msgs.msg.LaserScan)],
+            lambda image, camera: [scan_of_image(self._tuned.settings, image, camera)],
+            queue_size=_KEPT,
+        )
 
 
 def scan_of_image(

@@ -1,7 +1,6 @@
 """Images as numpy arrays, converted between encodings.
 
-Channels are swapped, added and left out here; grey from colours, other depths and mosaics are OpenCV's
-work, if ``cv2`` is installed.
+Images in YUV and compressed ones are OpenCV's work, if ``cv2`` is installed.
 """
 
 from __future__ import annotations
@@ -20,11 +19,13 @@ from gazelle_ros.compat.cv_bridge.encodings import (
     encoding_of,
     getCvType,
 )
+from gazelle_ros.compat.cv_bridge.mosaics import demosaic, grey
 from gazelle_ros.msgs import sensor_msgs, std_msgs
 
 __all__ = ["CvBridge", "CvBridgeError"]
 
 Image = NDArray[Any]
+_LEAST_MOSAIC = 3
 _COMPRESSED_AS = {"jpg": "jpg", "jpeg": "jpg", "png": "png", "bmp": "bmp", "tiff": "tiff"}
 
 
@@ -167,12 +168,32 @@ def _converted(image: Image, source: Encoding, target: Encoding) -> Image:
     same_shape = (source.kind, source.channels) == (target.kind, target.channels)
     if same_shape and (not source.order or not target.order or source.order == target.order):
         return image
-    if source.kind == target.kind and source.order and target.order:
-        if source.order == "Y":
-            return _coloured(image, target)
-        if target.order != "Y":
-            return _reordered(image, source, target)
-    return _by_opencv(image, source, target)
+    if source.name.startswith("yuv"):
+        return _by_opencv(image, source, target)
+    if not target.order:
+        raise CvBridgeError(f"there is no conversion from [{source.name}] to [{target.name}]")
+    if source.name.startswith("bayer"):
+        image, source = _demosaicked(image, source), encoding_of(f"rgb{source.name[10:]}")
+    if not source.order:
+        raise CvBridgeError(f"[{source.name}] is not a color format. but [{target.name}] is.")
+    return _with_depth(_in_order(image, source, target), target)
+
+
+def _demosaicked(image: Image, source: Encoding) -> Image:
+    if min(image.shape) < _LEAST_MOSAIC:
+        raise CvBridgeError(f"a mosaic has 3 x 3 pixels at least, not {image.shape}")
+    return demosaic(image, source.name[6:10])
+
+
+def _in_order(image: Image, source: Encoding, target: Encoding) -> Image:
+    """Return the channels of the target, of the source's type."""
+    if source.order == target.order:
+        return image
+    if source.order == "Y":
+        return _coloured(image, target)
+    if target.order == "Y":
+        return grey(image[:, :, [source.order.index(each) for each in "rgb"]])
+    return _reordered(image, source, target)
 
 
 def _coloured(image: Image, target: Encoding) -> Image:
@@ -205,23 +226,11 @@ def _opencv(what: str) -> ModuleType:
 
 def _by_opencv(image: Image, source: Encoding, target: Encoding) -> Image:
     cv2: Any = _opencv(f"conversions from [{source.name}] to [{target.name}]")
-    if not source.order and not source.name.startswith(("bayer", "yuv")):
-        raise CvBridgeError(f"[{source.name}] is not a color format. but [{target.name}] is.")
-    name = f"COLOR_{_NAMES.get(source.order, '')}2{_NAMES.get(target.order, '')}"
-    if source.name.startswith("bayer"):
-        # OpenCV names mosaics by the second row, beginning with its second pixel.
-        letters = {"rggb": "BG", "bggr": "RG", "gbrg": "GR", "grbg": "GB"}[source.name[6:10]]
-        name = f"COLOR_Bayer{letters}2{_NAMES.get(target.order, '')}"
-    elif source.name.startswith("yuv"):
-        name = f"COLOR_YUV2{_NAMES[target.order]}_{'YUY2' if 'yuy2' in source.name else 'UYVY'}"
-    if source.order != target.order:
-        if not hasattr(cv2, name):
-            raise CvBridgeError(f"there is no conversion from [{source.name}] to [{target.name}]")
-        image = cv2.cvtColor(image, getattr(cv2, name))
-    return _with_depth(image, target)
-
-
-_NAMES = {"Y": "GRAY", "rgb": "RGB", "bgr": "BGR", "rgba": "RGBA", "bgra": "BGRA"}
+    names = {"Y": "GRAY", "rgb": "RGB", "bgr": "BGR", "rgba": "RGBA", "bgra": "BGRA"}
+    name = f"COLOR_YUV2{names.get(target.order, '')}_{'YUY2' if 'yuy2' in source.name else 'UYVY'}"
+    if not hasattr(cv2, name):
+        raise CvBridgeError(f"there is no conversion from [{source.name}] to [{target.name}]")
+    return _with_depth(cv2.cvtColor(image, getattr(cv2, name)), target)
 
 
 def _with_depth(image: Image, target: Encoding) -> Image:

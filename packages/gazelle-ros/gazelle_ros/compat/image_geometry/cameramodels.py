@@ -1,7 +1,6 @@
 """Cameras with and without a partner, from ``CameraInfo`` messages.
 
-The projection is that of http://wiki.ros.org/image_pipeline/CameraInfo. Rectification of images and
-pixels is OpenCV's work and not here.
+The projection is that of http://wiki.ros.org/image_pipeline/CameraInfo, the distortion OpenCV's.
 """
 # ruff: noqa: N802, N803 - the names are image_geometry's
 
@@ -15,7 +14,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle_ros.base.array_types import Floats
+from gazelle_ros.base.errors import RosError, did_you_mean
+from gazelle_ros.base.lenses import MOST_COEFFICIENTS, distort, undistort
+from gazelle_ros.base.resampling import Interpolation, Resampling
 from gazelle_ros.msgs import sensor_msgs
+
+_MODELS = ("plumb_bob", "rational_polynomial")
+
+
+def _from_pixels(intrinsic: Floats, pixels: Floats) -> Floats:
+    """Return the rays of pixels at a depth of 1, shape (..., 3)."""
+    homogeneous = np.concatenate((pixels, np.ones_like(pixels[..., :1])), axis=-1)
+    return homogeneous @ np.linalg.inv(intrinsic).T
+
+
+def _to_pixels(intrinsic: Floats, places: Floats) -> Floats:
+    """Return the pixels of places at a depth of 1, shape (..., 2)."""
+    return places @ intrinsic[:2, :2].T + intrinsic[:2, 2]
 
 
 def _matrix(rows: int, columns: int, values: Sequence[float] | NDArray[Any]) -> Floats:
@@ -44,6 +59,7 @@ class PinholeCameraModel:
         self.raw_roi: Any = None
         self.tf_frame: str | None = None
         self.stamp: Any = None
+        self._model = ""
 
     def fromCameraInfo(self, msg: sensor_msgs.msg.CameraInfo) -> None:
         """Set the values of a ``CameraInfo``."""
@@ -54,6 +70,7 @@ class PinholeCameraModel:
         self.binning_x, self.binning_y = max(1, msg.binning_x), max(1, msg.binning_y)
         self.raw_roi = msg.roi
         self.tf_frame, self.stamp = msg.header.frame_id, msg.header.stamp
+        self._model = msg.distortion_model
         self.K, self.P = self._visible(self.full_K), self._visible(self.full_P)
 
     def _visible(self, full: Floats) -> Floats:
@@ -64,6 +81,93 @@ class PinholeCameraModel:
         seen[0] /= self.binning_x
         seen[1] /= self.binning_y
         return seen
+
+    def rectifyPoint(self, uv_raw: Sequence[float]) -> tuple[float, float]:
+        """Return the rectified pixel (u, v) of a raw one; NaN if the lens has none there.
+
+        Raises:
+            RosError: The camera is not calibrated, or its distortion model is unknown.
+        """
+        found = self.rectified(np.array(uv_raw, float))
+        return float(found[0]), float(found[1])
+
+    def unrectifyPoint(self, uv_rect: Sequence[float]) -> tuple[float, float]:
+        """Return the raw pixel (u, v) of a rectified one.
+
+        Raises:
+            RosError: The camera is not calibrated, or its distortion model is unknown.
+        """
+        found = self.unrectified(np.array(uv_rect, float))
+        return float(found[0]), float(found[1])
+
+    def rectifyImage(
+        self,
+        raw: NDArray[Any],
+        rectified: NDArray[Any],
+        interpolation: int = Interpolation.CUBIC,
+    ) -> None:
+        """Fill an array with the rectified image.
+
+        Args:
+            raw: The image.
+            rectified: Array of the same shape and type, which is filled.
+            interpolation: OpenCV's number.
+
+        Raises:
+            RosError: The camera is not calibrated, or its distortion model is unknown.
+        """
+        rows, columns = raw.shape[:2]
+        rectified[...] = self.rectification(columns, rows, Interpolation(interpolation)).apply(raw)
+
+    def rectification(self, width: int, height: int, interpolation: Interpolation) -> Resampling:
+        """Return what rectifies images of a size [px].
+
+        Raises:
+            RosError: The camera is not calibrated, or its distortion model is unknown.
+        """
+        places = np.stack(np.meshgrid(np.arange(width), np.arange(height)), axis=-1)
+        raw = self.unrectified(places.astype(np.float64))
+        return Resampling(raw[..., 0], raw[..., 1], (height, width), interpolation)
+
+    def unrectified(self, pixels: Floats) -> Floats:
+        """Return the raw pixels of rectified ones, shape (..., 2).
+
+        Raises:
+            RosError: The camera is not calibrated, or its distortion model is unknown.
+        """
+        raw, rotation, coefficients = self._calibration()
+        rays = _from_pixels(self.P[:, :3], pixels) @ rotation  # R turns raw rays to rectified ones
+        return _to_pixels(raw, distort(rays[..., :2] / rays[..., 2:], coefficients))
+
+    def rectified(self, pixels: Floats) -> Floats:
+        """Return the rectified pixels of raw ones, shape (..., 2); NaN where the lens has none.
+
+        Raises:
+            RosError: The camera is not calibrated, or its distortion model is unknown.
+        """
+        raw, rotation, coefficients = self._calibration()
+        place = _from_pixels(raw, pixels)[..., :2]
+        plain, found = undistort(place, coefficients)
+        rays = np.concatenate((plain, np.ones_like(plain[..., :1])), axis=-1) @ rotation.T
+        rectified = _to_pixels(self.P[:, :3], rays[..., :2] / rays[..., 2:])
+        return np.where(found[..., None], rectified, math.nan)
+
+    def _calibration(self) -> tuple[Floats, Floats, Sequence[float]]:
+        """Return `K`, `R` and coefficients of the distortion."""
+        if self.K is None or self.R is None or self.K[0, 0] == 0.0:
+            raise RosError("the camera is not calibrated: its camera_info has no focal length")
+        coefficients = [] if self.D is None else self.D[:, 0].tolist()
+        if any(coefficients) and self._model not in _MODELS:
+            hint = did_you_mean(self._model, _MODELS)
+            raise RosError(
+                f"images of the distortion model '{self._model}' are not rectified", hint=hint
+            )
+        if any(coefficients[MOST_COEFFICIENTS:]):
+            raise RosError(
+                "images of a tilted sensor (13th and 14th coefficient) are not rectified"
+            )
+        rotation = self.R if self.R.any() else np.eye(3)
+        return self.K, rotation, coefficients[:MOST_COEFFICIENTS]
 
     def project3dToPixel(self, point: Sequence[float]) -> tuple[float, float]:
         """Return the rectified pixel (u, v) of a point in the camera's optical frame [m]."""
