@@ -22,7 +22,7 @@ import wrong_calls
 import gazelle
 import gazelle.builders
 import gazelle_ros as ros
-from gazelle import Simulation, clients, planning, stage
+from gazelle import Error, Simulation, clients, planning, stage
 from gazelle.control import EFFORT, JointCommandInterface, JointStateInterface
 from gazelle.description import Box, OccupancyMap, Pose
 from gazelle.engines import planar
@@ -298,6 +298,7 @@ TABLE: dict[str, Callable[[Samples], Any]] = {
     "JointModelGroup": lambda s: arms.arm_group("fetch")[1],
     "Engine": lambda s: s.simulation.engine,
     "Pose": lambda s: Pose(),
+    "Error": lambda s: Error("wrong"),
     "Shape": lambda s: Box((1.0, 1.0, 1.0)),
     "Geometry": lambda s: Box((1.0, 1.0, 1.0)),
     "Region": lambda s: Box((1.0, 1.0, 1.0)),

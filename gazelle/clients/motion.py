@@ -17,7 +17,7 @@ _ZERO = (0.0, 0.0, 0.0)
 _UNKNOWN = (math.nan, math.nan, math.nan)
 
 
-@checked(ClientError, after=True)
+@checked(ClientError)
 class Driver(Closeable):
     """Commands one base and knows its pose; also a context manager, which stops it at the end.
 

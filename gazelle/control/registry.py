@@ -16,7 +16,7 @@ from typing import TypeVar
 from gazelle.control.controller import Controller, ControllerSetup
 from gazelle.control.table import CONTROLLERS
 from gazelle.errors import ControlError, did_you_mean
-from gazelle_ros.base.entry_points import entry_points_of_others
+from gazelle_ros.base.entry_points import UNIMPORTABLE, entry_points_of_others
 
 C = TypeVar("C", bound=type[Controller])
 
@@ -76,11 +76,11 @@ def _find(name: str) -> type[Controller] | None:
     if name in CONTROLLERS:
         return _own(name)
     module, _, attribute = name.partition(":" if ":" in name else "/")
-    if not module or not attribute:
+    if not attribute:
         return None
     try:
         loaded = importlib.import_module(module)
-    except ImportError:
+    except UNIMPORTABLE:
         return None
     found = getattr(loaded, attribute, None)
     return None if found is None else _checked(found, name)

@@ -7,7 +7,8 @@ where the type of the default decides how the text is read.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import math
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import TypeVar
@@ -87,7 +88,7 @@ class Parameters(HoldsMappings):
             FormatError: The text is not of that type.
         """
         try:
-            return kind(_read_bool(self.text)) if kind is bool else kind(self.text)
+            return kind(_READ[kind](self.text))
         except ValueError:
             expected = {bool: "true or false", int: "an int", float: "a number"}[kind]
             raise FormatError(
@@ -104,7 +105,7 @@ class Parameters(HoldsMappings):
         if child is None or not child.text:
             return default
         try:
-            values = tuple(float(word) for word in child.text.split())
+            values = tuple(map(_read_number, child.text.split()))
         except ValueError:
             values = ()
         if len(values) != len(default):
@@ -122,3 +123,19 @@ def _read_bool(text: str) -> bool:
     if word in _FALSE:
         return False
     raise ValueError(text)
+
+
+def _read_number(text: str) -> float:
+    number = float(text)
+    if math.isnan(number):
+        raise ValueError(text)
+    return number
+
+
+_READ: Mapping[type, Callable[[str], bool | int | float | str]] = {
+    bool: _read_bool,
+    int: int,
+    float: _read_number,
+    str: str,
+}
+"""Readers of texts by type."""

@@ -7,7 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
+from gazelle.errors import EngineError
 from gazelle.rotations import conjugate, multiply, rotate
 
 
@@ -23,6 +25,7 @@ class Placement:
     position: Floats
     quaternion: Floats
 
+    @checked(EngineError, after=True)
     def relative_to(self, frame: Placement) -> Placement:
         """Return the placement in a frame that is itself placed in the same frame."""
         back = conjugate(frame.quaternion)

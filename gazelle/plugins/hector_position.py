@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters, SphericalCoordinates
+from gazelle.errors import FormatError
 from gazelle.plugins.frames import placed
 from gazelle.plugins.hector_body import OnBody, SampledOnBody, SampleSystem
 from gazelle.plugins.hector_imu import rate_of
@@ -151,6 +152,8 @@ class HectorMagnetic(OnBody):
         heading = math.radians(given)
         turn = heading - math.radians(parameters.get("declination", 0.0))
         dip = math.radians(parameters.get("inclination", 60.0))
+        if not math.isfinite(turn + dip):
+            raise FormatError("the angles of a field must be finite", source=parameters.source)
         level = math.cos(dip)
         self._field = parameters.get("magnitude", 1.0) * np.array(
             [level * math.cos(turn), level * math.sin(turn), -math.sin(dip)]

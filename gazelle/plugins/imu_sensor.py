@@ -25,12 +25,12 @@ class ImuSensor(Noisy, PublishingPlugin, SensorPlugin):
         rate, own = parameters.get("updateRateHZ", 1.0), sensor.description.update_rate
         # It publishes what the sensor measures, so no more often than that does.
         self.update_rate = own if rate <= 0.0 or 0.0 < own < rate else rate
-        self._variance = parameters.get("gaussianNoise", 0.0) ** 2
-        noise = Noise("gaussian", stddev=parameters.get("gaussianNoise", 0.0))
+        deviation = parameters.get("gaussianNoise", 0.0)
+        noise = Noise("gaussian", stddev=deviation)
         self._noise = NoiseModel(
             noise, simulation.seed, f"{sensor.name}::imu_sensor", simulation.nworld, 10
         )
-        self._noises = {"noise": self._noise}
+        self._noises, self._variance = {"noise": self._noise}, deviation * deviation
         turn = parameters.numbers("rpyOffset", (0.0, 0.0, 0.0))
         self._turn = np.asarray(Pose(0.0, 0.0, 0.0, *turn).quaternion)
         self._from_start = parameters.get("initialOrientationAsReference", False)

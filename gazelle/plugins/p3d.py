@@ -48,8 +48,9 @@ class P3D(Noisy, Publishing):
         turn = parameters.numbers("rpyOffset", (0.0, 0.0, 0.0))
         self._offset = np.asarray(offset)
         self._turn = np.asarray(Pose(0.0, 0.0, 0.0, *turn).quaternion)
-        self._variance = parameters.get("gaussianNoise", 0.0) ** 2
-        self._make_noise(robot, body, parameters.get("gaussianNoise", 0.0))
+        deviation = parameters.get("gaussianNoise", 0.0)
+        self._variance = deviation * deviation  # infinite where a power is an OverflowError
+        self._make_noise(robot, body, deviation)
         self.update_rate = parameters.get("updateRate", 0.0)
         self._child = body
         namespace = namespace_of(robot, parameters)

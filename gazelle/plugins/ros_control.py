@@ -27,6 +27,7 @@ from gazelle.simulation.simulated_hardware import (
     SimulatedHardware,
 )
 from gazelle.simulation.values import EmergencyStop
+from gazelle_ros.base.entry_points import UNIMPORTABLE
 
 DEFAULT_HARDWARE = "gazebo_ros_control/DefaultRobotHWSim"
 _PREFIX = "hardware_interface/"
@@ -152,7 +153,7 @@ class RosControl(ControlLoop):
         module, _, attribute = name.partition(":" if ":" in name else "/")
         try:
             found = getattr(importlib.import_module(module), attribute, None)
-        except ImportError:
+        except UNIMPORTABLE:
             found = None
         if not (isinstance(found, type) and issubclass(found, SimulatedHardware)):
             raise SimulationError(

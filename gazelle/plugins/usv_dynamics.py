@@ -100,7 +100,7 @@ class UsvDynamics(ModelPlugin):
         sunk = np.clip(depth, 0.0, radius)
         off = radius - sunk
         chord = np.sqrt(np.maximum(2.0 * radius * sunk - sunk**2, 0.0))
-        segment = radius**2 * np.arccos(off / radius) - off * chord
+        segment = radius * radius * np.arccos(off / radius) - off * chord
         return np.asarray(self._weight * segment, np.float64)
 
     def reset(self, worlds: Worlds | None) -> None:

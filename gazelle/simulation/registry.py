@@ -17,7 +17,7 @@ from gazelle import description
 from gazelle.errors import SimulationError, SimulationWarning, did_you_mean, located
 from gazelle.simulation.base_plugin import BasePlugin
 from gazelle.simulation.plugin_table import known_plugins
-from gazelle_ros.base.entry_points import entry_points_of_others
+from gazelle_ros.base.entry_points import UNIMPORTABLE, entry_points_of_others
 
 P = TypeVar("P", bound=type[BasePlugin])
 
@@ -101,7 +101,7 @@ def _import(plugin: description.Plugin) -> type[BasePlugin]:
     name, _, attribute = plugin.filename.partition(":")
     try:
         module = importlib.import_module(name)
-    except ImportError as error:
+    except UNIMPORTABLE as error:
         raise SimulationError(
             f"the module of plugin '{plugin.name}' cannot be imported: {error}",
             source=plugin.source,

@@ -17,6 +17,7 @@ from gazelle.array_types import Floats
 from gazelle.errors import Error, did_you_mean
 from gazelle.navigation.costmap import Costmap
 from gazelle.navigation.following import Pose2
+from gazelle_ros.base.entry_points import UNIMPORTABLE
 
 Values = Mapping[str, Any]
 Velocity = tuple[float, float, float]
@@ -151,5 +152,5 @@ def _found(kind: str, table: Mapping[str, Any], what: str) -> Any:
         sys.path.append(here)
     try:
         return getattr(importlib.import_module(module), attribute)
-    except (ImportError, AttributeError) as error:
+    except (*UNIMPORTABLE, AttributeError) as error:
         raise Error(f"the {what} '{kind}' cannot be imported: {error}") from error

@@ -16,6 +16,9 @@ from gazelle_ros.base.errors import Error
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
 
+UNIMPORTABLE = (ImportError, TypeError, ValueError)
+"""Errors of an import by name: the last two are for texts that no module is called, as ``.a`` and none."""
+
 _OWN = ("gazelle", "gazelle-ros")
 _PROJECTS = [folder / "pyproject.toml" for folder in Path(__file__).parents[2:5:2]]
 """Those of ``packages/gazelle-ros`` and of the checkout around it."""
@@ -49,7 +52,7 @@ def load(point: EntryPoint, what: str, error: type[Error]) -> Any:
     """
     try:
         return point.load()
-    except (ImportError, AttributeError) as fault:
+    except (*UNIMPORTABLE, AttributeError) as fault:
         raise error(f"{what} ({point.value}) cannot be loaded: {fault}") from fault
 
 

@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 from typing import Any, Literal
 
 from gazelle_ros import names
+from gazelle_ros.base.real_numbers import finite
+from gazelle_ros.launch.errors import LaunchError
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,6 +84,12 @@ class NodePlan:
     launch_prefix: str = ""
     environment: tuple[tuple[str, str], ...] = ()
     remappings: tuple[tuple[str, str], ...] = ()
+
+    def __post_init__(self) -> None:
+        for name in ("respawn_delay", "time_limit"):  # that of a test
+            seconds = getattr(self, name, 0.0)
+            if finite(seconds) is None:
+                raise LaunchError(f"{name} must be a finite number, not {seconds!r:.60}")
 
     @property
     def full_name(self) -> str:

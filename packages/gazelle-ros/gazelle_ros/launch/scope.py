@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 from gazelle_ros import names
 from gazelle_ros.base.errors import did_you_mean
+from gazelle_ros.base.real_numbers import finite
 from gazelle_ros.launch.document import Element
 from gazelle_ros.launch.errors import LaunchError, place_error
 from gazelle_ros.launch.plan import SourceLocation
@@ -120,10 +122,11 @@ class LaunchScope:
         value = self.text(element, key)
         if value is None:
             return default
-        try:
-            return float(value)
-        except ValueError:
-            raise element.error(f"{key}='{value}' is no number") from None
+        with contextlib.suppress(ValueError):
+            number = finite(float(value))
+            if number is not None:
+                return number
+        raise element.error(f"{key}='{value:.60}' is no finite number")
 
     def applies(self, element: Element) -> bool:
         """Return whether an element's ``if`` or ``unless`` includes it.
