@@ -39,7 +39,7 @@ class OnDemandOutputs:
     @property
     def wanted(self) -> list[bool]:
         """Topics that have subscribers, in their order."""
-        return [each.has_listener for each in self._publishers]
+        return [each.has_subscribers for each in self._publishers]
 
     def publish(self, *messages: Any) -> None:
         """Publish a message on each topic; none where it is None."""

@@ -48,6 +48,12 @@ _OWN = {
             "state_publisher": "gazelle_ros.builtin.robot:state_main",
         }),
         BuiltinPackage("cmd_vel_mux", {"cmd_vel_mux": "gazelle_ros.builtin.cmd_vel_mux:main"}, _CMD_VEL_MUX),
+        BuiltinPackage("depth_image_proc", nodelets={
+            "convert_metric": "gazelle_ros.builtin.images.depth.metric:convert_metric",
+            "point_cloud_xyz": "gazelle_ros.builtin.images.depth.points:point_cloud_xyz",
+            "point_cloud_xyzrgb": "gazelle_ros.builtin.images.depth.points:point_cloud_xyzrgb",
+            "register": "gazelle_ros.builtin.images.depth.register:RegisterDepth",
+        }),
         BuiltinPackage("depthimage_to_laserscan", {
             "depthimage_to_laserscan": "gazelle_ros.builtin.scans.depth_image:main",
         }, {"DepthImageToLaserScanNodelet": "gazelle_ros.builtin.scans.depth_image:DepthImageToLaserScan"}),

@@ -14,14 +14,12 @@ from gazelle_ros.builtin.images.conversion import (
     ImageConversion,
     camera_topics,
 )
+from gazelle_ros.builtin.images.depth.metric import depths_of
 from gazelle_ros.builtin.parameters import settings_of
 from gazelle_ros.builtin.tuned_settings import TunedSettings, tunable
-from gazelle_ros.compat.cv_bridge import CvBridge
 from gazelle_ros.msgs import sensor_msgs, std_msgs
 from gazelle_ros.node import Node
 
-_UNITS = {"16UC1": 0.001, "32FC1": 1.0}
-"""Length of a unit of each encoding [m]."""
 _KEPT = 10
 
 
@@ -89,9 +87,7 @@ def scan_of_image(
         ValueError: The image is of another encoding or not as high as the rows wanted, or the
             camera has no focal length.
     """
-    unit = _UNITS.get(image.encoding)
-    if unit is None:
-        raise ValueError(f"the encoding is {image.encoding}; it should be one of {list(_UNITS)}")
+    depths = depths_of(image)
     focal, centre_x, centre_y = camera.P[0], camera.P[2], camera.P[6]
     if not focal > 0.0:
         raise ValueError("the camera_info has no focal length (P[0])")
@@ -103,9 +99,7 @@ def scan_of_image(
     first, last = float(angles[-1]), float(angles[0])
     step = (last - first) / max(image.width - 1, 1)
     top = int(centre_y - half)
-    rows = CvBridge().imgmsg_to_cv2(image)[top : top + settings.scan_height].astype(np.float64)
-    if unit != 1.0:
-        rows = np.where(rows == 0.0, np.nan, rows * unit)
+    rows = depths[top : top + settings.scan_height]
     return sensor_msgs.msg.LaserScan(
         header=std_msgs.msg.Header(
             stamp=image.header.stamp, frame_id=settings.output_frame_id or image.header.frame_id

@@ -49,7 +49,8 @@ def grey(colours: Pixels) -> Pixels:
     """Return the luminance of red, green and blue, shape (height, width, 3), as OpenCV weighs them."""
     if colours.dtype.kind == "f":
         weights = np.array([0.299, 0.587, 0.114], colours.dtype)
-        return np.einsum("ijk,k->ij", colours, weights)
+        exact: Pixels = np.einsum("ijk,k->ij", colours, weights)
+        return exact
     weighed = np.einsum(
         "ijk,k->ij", colours.astype(np.uint32), np.array([9798, 19235, 3735], np.uint32)
     )
