@@ -18,6 +18,7 @@ from gazelle.simulation.inputs import one_world
 from gazelle.viewer.page.camera_insets import CameraInsets
 from gazelle.viewer.page.context import ROOT, OptionalLayer, PageContext, PageLayer, spots_of
 from gazelle.viewer.page.driving import DriveControls
+from gazelle.viewer.page.entity_tree import EntityTree
 from gazelle.viewer.page.goal_layer import GoalLayer, GoalPlaces
 from gazelle.viewer.page.joint_sliders import JointSliders
 from gazelle.viewer.page.model_tools import ModelTools
@@ -25,7 +26,9 @@ from gazelle.viewer.page.motion_layer import MotionLayer
 from gazelle.viewer.page.overlays import ContactLayer, FrameLayer, NameLayer, RayLayer
 from gazelle.viewer.page.plan_layer import PlanLayer
 from gazelle.viewer.page.plots import PlotLayer
+from gazelle.viewer.page.property_panel import PropertyPanel
 from gazelle.viewer.page.run_controls import RunControls
+from gazelle.viewer.page.selection_box import SelectionBox
 from gazelle.viewer.page.server import PageServer
 from gazelle.viewer.page.shapes import extent_of_world
 from gazelle.viewer.page.world_layer import ShapeLayer
@@ -34,6 +37,7 @@ from gazelle_ros.base.closing import Closeable
 
 _BESIDE = 4  # worlds of a batch that are shown by default
 _LENS = PinholeLens(400, 400, 1.25)  # about that of the page
+_LEFT = 300  # width of the left panel [pixel]
 _SHARE = 0.25  # of a core that pictures take at most: dearer ones come less often
 
 
@@ -139,6 +143,11 @@ class LiveView(Closeable):
             steering: list[PageLayer] = []
             if not only_looking:
                 steering = [DriveControls(context, self._server), JointSliders(context)]
+            left = page.gui.add_panel()
+            with left.add_tab("World"):
+                tree, properties = EntityTree(context, self._server), PropertyPanel(context)
+            left.dock_left()
+            left.set_width(_LEFT)
             motions = MotionLayer(context)
             self._optional: dict[str, OptionalLayer] = {
                 "Collision shapes": ShapeLayer(context, "solid", collisions=True, shown=False),
@@ -155,7 +164,8 @@ class LiveView(Closeable):
             self._plots = PlotLayer(context)
             self._offer()
             self._layers: tuple[PageLayer, ...] = (
-                controls, *panels, shapes, tools, *steering, *self._optional.values(), self._plots
+                controls, *panels, shapes, tools, *steering, *self._optional.values(), self._plots,
+                tree, properties, SelectionBox(context),
             )  # fmt: skip
             self._changed = False
             events = simulation.events

@@ -12,7 +12,7 @@ HARMLESS = ("Unable to preventDefault inside passive event listener",)
 
 
 @contextmanager
-def opened(url, size=(1000, 480)):
+def opened(url, size=(1300, 480)):
     """Open a page; yields it, and all errors of its console, which must be empty at the end."""
     sync_api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
     program = shutil.which("chromium") or shutil.which("chromium-browser")
@@ -33,6 +33,7 @@ def opened(url, size=(1000, 480)):
                 and origin not in asked.url and elsewhere.append(asked.url))  # fmt: skip
         page.goto(url)
         page.wait_for_selector("canvas")
+        page.add_style_tag(content=".mantine-Notifications-root { pointer-events: none }")
         yield page
         browser.close()
     assert [text for text in errors if not text.startswith(HARMLESS)] == []
@@ -40,11 +41,13 @@ def opened(url, size=(1000, 480)):
 
 
 def pixels(page):
-    """Return the visible scene between notices and panel, black around it, (height, width, 3)."""
+    """Return the visible scene without notices, black where panels are, (height, width, 3)."""
     import io
 
     from PIL import Image
 
-    shown = np.asarray(Image.open(io.BytesIO(page.screenshot())).convert("RGB"), np.int16).copy()
-    shown[:, :290] = shown[:, -325:] = 0
+    picture = page.screenshot(style=".mantine-Notifications-root { display: none }")
+    shown = np.asarray(Image.open(io.BytesIO(picture)).convert("RGB"), np.int16).copy()
+    scene = page.locator("canvas").first.bounding_box()
+    shown[:, : round(scene["x"])] = shown[:, round(scene["x"] + scene["width"]) :] = 0
     return shown

@@ -120,9 +120,9 @@ def test_nobody_is_told_after_the_view_is_closed(arm):
 
 
 def violet(shown):
-    """Return how many pixels are of the ghost's colour, and the middle of their columns."""
+    """Return how many pixels have the colour of ghost or path, and the middle of their columns."""
     red, green, blue = (shown[..., k] for k in range(3))
-    found = (blue > green + 40) & (red > green + 20) & (blue > red + 10)
+    found = (blue > green + 10) & (red > green + 5)
     return int(found.sum()), float(np.nonzero(found)[1].mean()) if found.any() else 0.0
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -21,6 +21,18 @@ ROOT = "/world"
 """Node that moves when a model is followed; everything hangs on it."""
 
 _GAP = 1.0  # between worlds that stand side by side [m]
+
+
+class ScenePart(NamedTuple):
+    """A part of a world that can be selected.
+
+    Attributes:
+        kind: ``world``, ``model``, ``link``, ``collision``, ``joint``, ``sensor`` or ``light``; "" for none.
+        name: Scoped name.
+    """
+
+    kind: str = ""
+    name: str = ""
 
 
 class PageLayer(Protocol):
@@ -57,9 +69,10 @@ class PageContext(UserActions):
         spots: Where they stand [m], shape (n, 3).
         selected: Name of the model that tools work on, "" for none.
         world: Number of the world that tools work on, among those shown.
+        part: Selected part of that model or world.
         heading: Where the followed model is [m], shape (3,).
         only_looking: Whether nothing can be changed on the page.
-        listeners: Called between two steps after another model was selected.
+        listeners: Called between two steps after another model or part was selected.
     """
 
     simulation: Simulation
@@ -68,10 +81,11 @@ class PageContext(UserActions):
     spots: Floats
     selected: str = ""
     world: int = 0
+    part: ScenePart = field(default_factory=ScenePart)
     only_looking: bool = False
     heading: Floats = field(default_factory=lambda: np.zeros(3))
     listeners: list[Callable[[], None]] = field(default_factory=list)
-    _announced: tuple[str, int] = ("", 0)
+    _announced: tuple[str, int, ScenePart] = ("", 0, ScenePart())
 
     @property
     def scene(self) -> SceneApi:
@@ -94,18 +108,27 @@ class PageContext(UserActions):
         found: Floats = self.spots[self.world]
         return found
 
-    def select(self, model: str, world: int = 0) -> None:
-        """Select the model that tools work on; "" for none. Listeners are called with the next picture."""
+    def select(self, model: str, world: int = 0, part: ScenePart | None = None) -> None:
+        """Select the model that tools work on, and a part of it.
+
+        Listeners are called with the next picture.
+
+        Args:
+            model: Its name; "" for none.
+            world: Number of the world, among those shown.
+            part: The model itself if None.
+        """
         self.selected, self.world = model, world
+        self.part = part or (ScenePart("model", model) if model else ScenePart())
 
     def announce_selection(self) -> None:
-        """Call the listeners if another model is selected since the last call.
+        """Call the listeners if another model or part is selected since the last call.
 
         Clicks arrive on the page's threads, pictures on others. Listeners that rebuild parts of the
         panel run here only, between two steps, so that no two of them rebuild a part at once.
         """
-        if (self.selected, self.world) != self._announced:
-            self._announced = (self.selected, self.world)
+        if (now := (self.selected, self.world, self.part)) != self._announced:
+            self._announced = now
             for listener in tuple(self.listeners):
                 listener()
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -18,6 +17,9 @@ _TURN = math.pi
 class JointSliders:
     """Shows where joints are, and puts them elsewhere.
 
+    Sliders are used again for other models, since a page reports an error where one is removed at
+    the moment that its value changes.
+
     Args:
         context: Of the page.
     """
@@ -25,6 +27,7 @@ class JointSliders:
     def __init__(self, context: PageContext) -> None:
         self._context = context
         self._folder = context.gui.add_folder("Joints", expand_by_default=False, visible=False)
+        self._pool: list[Any] = []
         self._sliders: dict[str, Any] = {}
         self._model = ""
         context.listeners.append(self.renew)
@@ -55,40 +58,40 @@ class JointSliders:
                 slider.value = shown
 
     def renew(self) -> None:
-        """Make sliders for the model that is selected now."""
+        """Use the sliders for the model that is selected now."""
         context = self._context
         robot = context.simulation.robots.get(context.selected)
         self._model = context.selected
-        for slider in self._sliders.values():
-            slider.remove()
-        self._sliders = {}
         joints = [] if robot is None else [j for j in robot.joints.items() if j[1].axes == 1]
         self._folder.visible = bool(joints)
-        with self._folder:
-            for name, _ in joints[:_MOST]:
-                self._sliders[name] = self._slider(name)
+        names = [name for name, _ in joints[:_MOST]]
+        while len(self._pool) < len(names):
+            self._pool.append(self._slider())
+        self._sliders = dict(zip(names, self._pool, strict=False))
+        for name, slider in self._sliders.items():
+            self._label(slider, name)
+        for slider in self._pool[len(names) :]:
+            slider.visible = False
 
-    def _slider(self, name: str) -> Any:
+    def _label(self, slider: Any, name: str) -> None:
+        """Show a joint on a slider."""
         robot = self._context.simulation.robots[self._model]
         axis = robot.joint_description(name).axes[0]
         low, high = axis.lower, axis.upper
         if not (math.isfinite(low) and math.isfinite(high) and 0.0 < high - low < 100.0):
             low, high = -_TURN, _TURN
-        slider = self._context.gui.add_slider(name, low, high, 0.001, min(max(0.0, low), high))
-        slider.on_update(self._setter(name))
+        slider.label, slider.min, slider.max, slider.visible = name, low, high, True
+        slider.value = min(max(0.0, low), high)
+
+    def _slider(self) -> Any:
+        context = self._context
+        with self._folder:
+            slider: Any = context.gui.add_slider("", -_TURN, _TURN, 0.001, 0.0)
+        context.on_user_change(slider, lambda: self._put(slider))
         return slider
 
-    def _setter(self, name: str) -> Callable[[Any], None]:
-        context, model = self._context, self._model
-
-        def put(event: Any) -> None:
-            if event.client is None:
-                return
-            value, chosen = np.array([event.target.value]), context.chosen
-
-            def work() -> None:
-                context.simulation.robots[model].set_configuration([name], value, chosen)
-
-            context.careful(work)
-
-        return put
+    def _put(self, slider: Any) -> None:
+        for name, each in self._sliders.items():
+            if each is slider:
+                robot = self._context.simulation.robots[self._model]
+                robot.set_configuration([name], np.array([slider.value]), self._context.chosen)

@@ -12,7 +12,7 @@ from gazelle import assets, formats
 from gazelle.array_types import Floats
 from gazelle.description import Pose
 from gazelle.simulation.free_place import spawn_where_free
-from gazelle.viewer.page.context import ROOT, PageContext
+from gazelle.viewer.page.context import ROOT, PageContext, ScenePart
 from gazelle.viewer.page.shapes import Instance
 
 NONE = "none"
@@ -100,7 +100,10 @@ class ModelTools:
 
         def click(event: Any) -> None:
             found = met(event.instance_index or 0)
-            context.careful(lambda: context.select(found.link.split("::")[0], found.world))
+            model = found.link.split("::")[0]
+            again = (model, found.world) == (context.selected, context.world)
+            part = ScenePart("link", found.link) if again else None
+            context.careful(lambda: context.select(model, found.world, part))
 
         handle.on_click(click)
         if context.only_looking:

@@ -207,21 +207,34 @@ def rest_of(world: World, links: tuple[str, ...]) -> tuple[Floats, Floats]:
     )
 
 
-def extent_of_world(world: World) -> tuple[Floats, Floats]:
-    """Return least and greatest corner of visible shapes except grounds [m], shape (3,)."""
+def corners_of_links(world: World) -> dict[str, Floats]:
+    """Return corners of the boxes around visible shapes by link, in the link's frame [m], shape (n, 3).
+
+    Grounds are left out.
+    """
     seen = visible_world(world)
-    tables, (at, turned) = _Tables.of(seen), rest_of(world, seen.links)
+    tables = _Tables.of(seen)
     boxes = [_box(tables, mesh) for mesh in tables.meshes]
-    points = [np.zeros((0, 3))]
+    points: dict[str, list[Floats]] = {}
     for part, local in zip(tables.parts, tables.local, strict=True):
         corners = boxes[int(part[c.MESH_OF_PART])]
         if len(corners) and np.ptp(corners, axis=0).max() < _FAR:
-            link = int(part[c.LINK_OF_PART])
             placed = corners @ local[:9].reshape(3, 3).T + local[9:]
-            points.append(at[link] + rotate(turned[link][None], placed))
-    corners = np.vstack(points)
-    if not len(corners):
+            points.setdefault(seen.links[int(part[c.LINK_OF_PART])], []).append(placed)
+    return {link: np.vstack(found) for link, found in points.items()}
+
+
+def extent_of_world(world: World) -> tuple[Floats, Floats]:
+    """Return least and greatest corner of visible shapes except grounds [m], shape (3,)."""
+    points = corners_of_links(world)
+    at, turned = rest_of(world, tuple(points))
+    placed = [
+        place + rotate(turn[None], corners)
+        for place, turn, corners in zip(at, turned, points.values(), strict=True)
+    ]
+    if not placed:
         return np.full(3, -1.0), np.full(3, 1.0)
+    corners = np.vstack(placed)
     return corners.min(axis=0), corners.max(axis=0)
 
 
@@ -230,7 +243,12 @@ def _box(tables: _Tables, mesh: Ints64) -> Floats:
     vertices = tables.vertices[int(mesh[c.FIRST_VERTEX]) : int(mesh[c.LAST_VERTEX])]
     if not len(vertices):
         return np.zeros((0, 3))
-    low, high = vertices.min(axis=0), vertices.max(axis=0)
+    return corners_around(vertices)
+
+
+def corners_around(points: Floats, room: float = 0.0) -> Floats:
+    """Return corners of the box around points, larger by some room on each side [m], shape (8, 3)."""
+    low, high = points.min(axis=0) - room, points.max(axis=0) + room
     which = np.array(list(itertools.product((False, True), repeat=3)))
     corners: Floats = np.where(which, high, low)
     return corners
