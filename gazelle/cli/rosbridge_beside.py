@@ -41,9 +41,9 @@ def rosbridge_beside(server: RosServer | StageServer, args: argparse.Namespace) 
         yield
         return
     from gazelle_ros.rosbridge.nodes import bridge, listening_text
-    from gazelle_ros.rosbridge.settings import settings_from
+    from gazelle_ros.rosbridge.settings import BridgeSettings
 
-    settings = settings_from({"port": args.rosbridge})
+    settings = BridgeSettings(port=args.rosbridge)
     with bridge(settings, server.master_uri) as rosbridge:
         sys.stdout.write(f"{listening_text(settings, rosbridge.port)}\n")
         yield

@@ -130,12 +130,7 @@ def _check(name: str, shape: Shape) -> None:
         lengths = (shape.radius,)
     elif isinstance(shape, Cylinder | Cone | Capsule):
         lengths = (shape.radius, shape.length)
-    elif isinstance(shape, MeshData):
-        if not len(shape.vertices) or not len(shape.faces):
-            raise PlanningError(f"a mesh of the object '{name}' has no triangles")
-        if not np.isfinite(shape.vertices).all():
-            raise PlanningError(f"a mesh of the object '{name}' has vertices that are not finite")
-    elif not isinstance(shape, Geometry):
+    elif not isinstance(shape, Geometry | MeshData):
         raise PlanningError(
             f"a shape of the object '{name}' is {shape!r}",
             hint="shapes are those of gazelle.description (Box, Sphere, Cylinder, ...) or a MeshData",

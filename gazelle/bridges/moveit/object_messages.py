@@ -11,7 +11,7 @@ import numpy as np
 from gazelle.bridges.conversions import pose_message, pose_of_message, set_point
 from gazelle.description import Box, Cone, Cylinder, Plane, Pose, Sphere
 from gazelle.engines.collision import Shape
-from gazelle.errors import PlanningError
+from gazelle.errors import FormatError, PlanningError
 from gazelle.formats import MeshData
 from gazelle.planning import SceneObject
 from gazelle.planning.scene_objects import object_of
@@ -152,9 +152,10 @@ def _plane(message: shape_msgs.msg.Plane) -> tuple[Plane, Pose]:
 def _mesh(message: shape_msgs.msg.Mesh) -> MeshData:
     corners = [(point.x, point.y, point.z) for point in message.vertices]
     faces = [tuple(triangle.vertex_indices) for triangle in message.triangles]
-    if any(index >= len(corners) for face in faces for index in face):
-        raise PlanningError(f"a mesh of {len(corners)} vertices has a triangle with others")
-    return MeshData(np.array(corners).reshape(-1, 3), np.array(faces, int).reshape(-1, 3))
+    try:
+        return MeshData(np.array(corners).reshape(-1, 3), np.array(faces, int).reshape(-1, 3))
+    except FormatError as error:
+        raise PlanningError(error.message) from error
 
 
 def mesh_message(mesh: MeshData) -> shape_msgs.msg.Mesh:

@@ -10,7 +10,7 @@ from websockets.sync.client import connect
 from gazelle_ros import Master, Node
 from gazelle_ros.rosbridge.rosapi import RosApi
 from gazelle_ros.rosbridge.server import BridgeServer
-from gazelle_ros.rosbridge.settings import settings_from
+from gazelle_ros.rosbridge.settings import BridgeSettings
 
 PATIENCE_S = 60
 
@@ -24,7 +24,7 @@ def graph():
 
 @pytest.fixture(scope="module")
 def bridge(graph):
-    settings = settings_from({"port": 0, "unregister_timeout": 0.05})
+    settings = BridgeSettings(port=0, unregister_timeout=0.05)
     with (
         Node("rosbridge_websocket", master_uri=graph.uri) as node,
         BridgeServer(node, settings) as server,

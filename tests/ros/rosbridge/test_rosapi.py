@@ -8,7 +8,7 @@ import pytest
 
 from gazelle_ros import Node, load_message, load_service
 from gazelle_ros.rosbridge.rosapi import RosApi
-from gazelle_ros.rosbridge.settings import settings_from
+from gazelle_ros.rosbridge.settings import BridgeSettings
 
 ACTION = ("cancel", "feedback", "goal", "result", "status")
 
@@ -119,7 +119,7 @@ def test_unknown_types_are_said(client):
 
 
 def test_patterns_hide_the_rest(graph, robot):
-    settings = settings_from({"topics_glob": "[/chat*]", "params_glob": "[/robot_*]"})
+    settings = BridgeSettings(topics_glob="[/chat*]", params_glob="[/robot_*]")
     with Node("other_api", master_uri=graph.uri) as node:
         api = RosApi.__new__(RosApi)  # a second one on the same graph would take the names
         api._node, api._settings, api._servers = node, settings, []

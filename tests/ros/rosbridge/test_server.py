@@ -18,7 +18,7 @@ from gazelle_ros.base.errors import RosError
 from gazelle_ros.errors import ServiceError
 from gazelle_ros.rosbridge.fragments import text_of_png
 from gazelle_ros.rosbridge.server import BridgeServer
-from gazelle_ros.rosbridge.settings import read_settings, settings_from
+from gazelle_ros.rosbridge.settings import BridgeSettings, read_settings
 
 STRING = load_message("std_msgs/String")
 SCAN = load_message("sensor_msgs/LaserScan")
@@ -314,7 +314,7 @@ def test_who_is_there(graph, robot):
     got = listen(robot, "/own/client_count", load_message("std_msgs/Int32"))
     with (
         Node("own_bridge", master_uri=graph.uri, namespace="/own") as node,
-        BridgeServer(node, settings_from({"port": 0})) as server,
+        BridgeServer(node, BridgeSettings(port=0)) as server,
     ):
         first = JsonClient(server.port)
         until(lambda: got and got[-1].data == 1)
@@ -373,7 +373,7 @@ def test_a_slow_client_holds_nobody_up(robot, bridge, client):
 def test_which_pages_may_connect(origin, host, allowed):
     from gazelle_ros.rosbridge.origins import may_connect
 
-    settings = settings_from({"allowed_origins": ["https://*.example.org"]})
+    settings = BridgeSettings(allowed_origins=["https://*.example.org"])
     assert may_connect(origin, host, settings) is allowed
 
 
@@ -389,7 +389,7 @@ def test_which_pages_may_connect(origin, host, allowed):
 def test_a_page_without_an_origin_connects_only_if_that_is_allowed_by_name(given, allowed):
     from gazelle_ros.rosbridge.origins import may_connect
 
-    assert may_connect("null", "localhost:9090", settings_from(given)) is allowed
+    assert may_connect("null", "localhost:9090", BridgeSettings(**given)) is allowed
 
 
 def test_a_page_from_elsewhere_is_turned_away(bridge):
@@ -401,10 +401,13 @@ def test_a_page_from_elsewhere_is_turned_away(bridge):
 
 
 def test_limits_and_patterns(graph):
-    settings = settings_from({
-        "port": 0, "max_incoming_bytes": 1000, "max_clients": 1, "topics_glob": "[/open*]",
-        "services_glob": "[/open*]",
-    })  # fmt: skip
+    settings = BridgeSettings(
+        port=0,
+        max_incoming_bytes=1000,
+        max_clients=1,
+        topics_glob="[/open*]",
+        services_glob="[/open*]",
+    )
     with (
         Node("limited", master_uri=graph.uri, namespace="/limits") as node,
         BridgeServer(node, settings) as server,
@@ -418,7 +421,7 @@ def test_limits_and_patterns(graph):
         with pytest.raises(ConnectionClosed):
             client.hear()
         with pytest.raises(RosError, match="cannot listen"):
-            BridgeServer(node, settings_from({"port": server.port}))
+            BridgeServer(node, BridgeSettings(port=server.port))
 
 
 def test_settings_come_from_parameters_and_words(graph):

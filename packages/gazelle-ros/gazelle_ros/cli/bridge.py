@@ -42,10 +42,10 @@ def run(args: argparse.Namespace) -> int:
     """Run the command; returns the exit code."""
     from gazelle_ros.builtin.arguments import spin
     from gazelle_ros.rosbridge.nodes import bridge, listening_text
-    from gazelle_ros.rosbridge.settings import settings_from
+    from gazelle_ros.rosbridge.settings import BridgeSettings
 
     given = {"port": args.port, "address": args.address, "allowed_origins": args.allow_origin}
-    settings = settings_from(given)
+    settings = BridgeSettings(**given)
     with bridge(settings, args.master) as server:
         say(f"{listening_text(settings, server.port)}\n")
         return spin(server.node)

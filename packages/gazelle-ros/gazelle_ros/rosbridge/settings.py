@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import fnmatch
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, fields
 from typing import Any
 
+from gazelle_ros.base.characters import can_be_written
+from gazelle_ros.base.deadlines import LONGEST_WAIT
 from gazelle_ros.base.errors import RosError, did_you_mean
+from gazelle_ros.net import MAX_PORT
 from gazelle_ros.node import Node
 
 _MEBI = 1024 * 1024
@@ -17,7 +20,11 @@ _MEBI = 1024 * 1024
 class BridgeSettings:
     """Settings of a rosbridge server: where it listens, and the permissions of clients.
 
-    The names are those of rosbridge_server's parameters; the last four are our own.
+    The names are those of rosbridge_server's parameters; the last four are our own. Values may be
+    text, as on a command line; no address stands for all.
+
+    Raises:
+        RosError: A value is none, or of another type.
     """
 
     port: int = 9090
@@ -54,6 +61,16 @@ class BridgeSettings:
     max_waiting_bytes: int = 16 * _MEBI
     """Largest queue of a slow client; beyond it the oldest messages of a topic are dropped."""
     max_clients: int = 1000
+
+    def __post_init__(self) -> None:
+        for each in fields(self):
+            value = _BY_TYPE[str(each.type)](each.name, getattr(self, each.name))
+            object.__setattr__(self, each.name, value)
+        object.__setattr__(self, "address", self.address or "0.0.0.0")  # noqa: S104
+        if self.port > MAX_PORT:
+            raise RosError(f"port is {self.port}; it goes from 0 to {MAX_PORT}")
+        if bool(self.certfile) != bool(self.keyfile):
+            raise RosError("give both 'certfile' and 'keyfile', or neither")
 
     def may_use_topic(self, topic: str) -> bool:
         """Return whether clients may publish and subscribe to a topic."""
@@ -96,23 +113,7 @@ def read_settings(node: Node, words: Sequence[str] = ()) -> BridgeSettings:
         raise RosError(
             "BSON is not supported", hint="leave 'bson_only_mode' false; clients may ask for CBOR"
         )
-    return settings_from(given)
-
-
-def settings_from(given: Mapping[str, Any]) -> BridgeSettings:
-    """Convert values by name to settings; they may be text, as on a command line.
-
-    Raises:
-        RosError: A value is none, or of another type.
-    """
-    made = replace(
-        BridgeSettings(), **{name: _CONVERT[name](name, value) for name, value in given.items()}
-    )
-    if not 0 <= made.port < 65536:
-        raise RosError(f"port is {made.port}; it goes from 0 to 65535")
-    if bool(made.certfile) != bool(made.keyfile):
-        raise RosError("give both 'certfile' and 'keyfile', or neither")
-    return replace(made, address=made.address or "0.0.0.0")  # noqa: S104  # rosbridge's meaning
+    return BridgeSettings(**given)
 
 
 def _command_line(words: Sequence[str]) -> dict[str, Any]:
@@ -121,10 +122,10 @@ def _command_line(words: Sequence[str]) -> dict[str, Any]:
     while rest:
         word = rest.pop(0)
         name = word.removeprefix("--")
-        if not word.startswith("--") or name not in _CONVERT | _SWITCHES:
+        if not word.startswith("--") or name not in {*_names(), *_SWITCHES}:
             raise RosError(
                 f"'{word}' is no option of rosbridge_websocket",
-                hint=did_you_mean(word, [f"--{each}" for each in _CONVERT]),
+                hint=did_you_mean(word, [f"--{each}" for each in _names()]),
             )
         if name in _SWITCHES:
             found[name] = True
@@ -135,7 +136,11 @@ def _command_line(words: Sequence[str]) -> dict[str, Any]:
     return found
 
 
-_SWITCHES = {"authenticate": None, "bson_only_mode": None}
+def _names() -> list[str]:
+    return [each.name for each in fields(BridgeSettings)]
+
+
+_SWITCHES = {"authenticate", "bson_only_mode"}
 
 
 def _number(name: str, value: Any) -> float:
@@ -143,8 +148,8 @@ def _number(name: str, value: Any) -> float:
         number = float(value)
     except (TypeError, ValueError, OverflowError):
         number = -1.0
-    if isinstance(value, bool) or not 0.0 <= number < float("inf"):
-        raise RosError(f"{name} is {value!r}; it wants a number, not below zero")
+    if isinstance(value, bool) or not 0.0 <= number <= LONGEST_WAIT:
+        raise RosError(f"{name} is {value!r:.60}; it wants a number from 0 to {LONGEST_WAIT:g}")
     return number
 
 
@@ -156,7 +161,7 @@ def _integer(name: str, value: Any) -> int:
 
 
 def _size(name: str, value: Any) -> int | None:
-    if value in {None, "None", ""}:
+    if value is None or value in ("None", ""):
         return None
     size = _integer(name, value)
     if size < 1:
@@ -171,8 +176,11 @@ def _flag(name: str, value: Any) -> bool:
     return text in {"true", "1"}
 
 
-def _text(_name: str, value: Any) -> str:
-    return "" if value is None else str(value)
+def _text(name: str, value: Any) -> str:
+    text = "" if value is None else str(value)
+    if not can_be_written(text):
+        raise RosError(f"{name} is {value!r:.60}; it wants text of characters")
+    return text
 
 
 def _patterns(name: str, value: Any) -> tuple[str, ...]:
@@ -197,4 +205,3 @@ _BY_TYPE: dict[str, Callable[[str, Any], Any]] = {
     "str": _text,
     "tuple[str, ...]": _patterns,
 }
-_CONVERT = {each.name: _BY_TYPE[str(each.type)] for each in fields(BridgeSettings)}
