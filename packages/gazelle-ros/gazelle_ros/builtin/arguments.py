@@ -123,15 +123,22 @@ class CallbackWork:
             pass
 
 
-def run_node(arguments: Sequence[str], name: str, make: Callable[[Node], NodeWork]) -> int:
+def run_node(
+    arguments: Sequence[str],
+    name: str,
+    make: Callable[[Node], NodeWork],
+    *,
+    anonymous: bool = False,
+) -> int:
     """Start a node, and do its work until Ctrl-C, SIGTERM, or until it is shut down; returns 0.
 
     Args:
         arguments: Command line without the program.
         name: The node's name if the command line has none.
         make: Makes the work from the node.
+        anonymous: Make that name one that is unique.
     """
-    found = parse_arguments(arguments, name)
+    found = parse_arguments(arguments, name, anonymous=anonymous)
     with found.start() as node, stopping() as stop:
         node.on_shutdown.append(lambda _reason: stop.set())
         make(node).run(stop)

@@ -64,6 +64,11 @@ _OWN = {
             "resize": "gazelle_ros.builtin.images.resize:Resize",
         }),
         BuiltinPackage("image_transport", {"republish": "gazelle_ros.builtin.images.republish:main"}),
+        BuiltinPackage("image_view", {
+            "extract_images": "gazelle_ros.builtin.images.saving:extract_main",
+            "image_saver": "gazelle_ros.builtin.images.saving:save_main",
+            "image_view": "gazelle_ros.builtin.images.view:main",
+        }, {"image": "gazelle_ros.builtin.images.view:ImageView"}),
         BuiltinPackage("imu_complementary_filter", {
             "complementary_filter_node": "gazelle_ros.builtin.imu.node:complementary_main",
         }),

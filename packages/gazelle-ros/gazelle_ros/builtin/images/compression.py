@@ -84,7 +84,7 @@ def fill_compressed(
         "jpeg": {"quality": settings.jpeg_quality},
         "png": {"compress_level": settings.png_level},
     }
-    _pillow().fromarray(np.ascontiguousarray(pixels)).save(
+    pillow().fromarray(np.ascontiguousarray(pixels)).save(
         written, settings.format.upper(), **options[settings.format]
     )
     stored = "bgr8" if pixels.ndim > 2 else ""
@@ -133,22 +133,29 @@ def _holds(name: str, kind: np.dtype[Any], channels: int | None = None) -> bool:
 
 
 def _read(data: bytes) -> Pixels:
-    pillow = _pillow()
+    images = pillow()
     try:
-        with pillow.open(io.BytesIO(data)) as picture:
+        with images.open(io.BytesIO(data)) as picture:
             kind = _GREY_MODES.get(picture.mode)
             if kind is None:
                 return np.asarray(picture.convert("RGB"), np.uint8)
             return np.asarray(picture, kind)
-    except pillow.UnidentifiedImageError:  # its text differs each time
+    except images.UnidentifiedImageError:  # its text differs each time
         raise RosError("a compressed image cannot be read: its format is unknown") from None
-    except (pillow.DecompressionBombError, OSError, SyntaxError, ValueError) as error:
+    except (images.DecompressionBombError, OSError, SyntaxError, ValueError) as error:
         raise RosError(f"a compressed image cannot be read: {error}") from error
 
 
-def _pillow() -> ModuleType:
+def pillow() -> ModuleType:
+    """Return Pillow's module of images.
+
+    Raises:
+        RosError: It is not installed.
+    """
     try:
         from PIL import Image
     except ImportError:
-        raise RosError("compressed images need Pillow", hint="pip install pillow") from None
+        raise RosError(
+            "compressed images and files of images need Pillow", hint="pip install pillow"
+        ) from None
     return Image
