@@ -53,6 +53,20 @@ class TalkingGraph:
         """Press a button of a panel."""
         self.page.get_by_role("button", name=button, exact=True).click()
 
+    def box(self, label):
+        """Return the text or number beside a label."""
+        row = (
+            f'//label[normalize-space()="{label}"]/ancestor::div[contains(@class, "Flex-root")][1]'
+        )
+        return self.page.locator(
+            f"xpath={row}//*[self::textarea or self::input[not(@type) or @type='text']]"
+        ).first
+
+    def fill(self, label, text):
+        """Fill in a text or number of a panel, and go on to the next."""
+        self.box(label).fill(text)
+        self.box(label).press("Tab")
+
     def wait_text(self, text):
         """Wait until the page has a text."""
         self.page.get_by_text(text).first.wait_for()

@@ -21,7 +21,7 @@ from gazelle.viewer.graph.motions import MotionTopic
 from gazelle.viewer.graph.robots import DescribedRobot
 from gazelle.viewer.graph.statuses import Arrivals, DisplayStatus, status_of
 from gazelle.viewer.graph.styles import SIZE_LABELS, default_style
-from gazelle_ros import load_message
+from gazelle_ros import Subscriber, load_message
 from gazelle_ros.messages import Message
 from gazelle_ros.tf import TransformException
 
@@ -70,7 +70,8 @@ class TopicDisplay:
         if kind == MOTION:
             self.motion = MotionTopic(context.scene, f"{name}/plan", topic)
         self._add_settings()
-        self._subscriber = context.node.subscribe(topic, load_message(kind), self.receive, 50)
+        self._subscriber: Subscriber | None = None
+        self.resume()
 
     @property
     def status(self) -> DisplayStatus:
@@ -98,8 +99,21 @@ class TopicDisplay:
                 self._fresh.clear()
             self._fresh.append(message)
 
+    def resume(self) -> None:
+        """Receive messages."""
+        if self._subscriber is None:
+            kind = load_message(self.kind)
+            self._subscriber = self._context.node.subscribe(self.topic, kind, self.receive, 50)
+
+    def pause(self) -> None:
+        """Receive nothing until the next ``draw``."""
+        if self._subscriber is not None:
+            self._subscriber.close()
+            self._subscriber = None
+
     def draw(self) -> None:
         """Draw the messages that are new."""
+        self.resume()
         with self._lock:
             fresh, self._fresh = self._fresh, []
         for message in fresh:
@@ -171,7 +185,7 @@ class TopicDisplay:
 
     def remove(self) -> None:
         """Remove it from page and graph."""
-        self._subscriber.close()
+        self.pause()
         self.drawing.clear()
         self.anchor.remove()
         self._folder.remove()

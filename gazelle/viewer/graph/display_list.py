@@ -79,6 +79,11 @@ class DisplayList:
             publishers = others.get(topic, 0)
             display.report(types.get(topic, "") if publishers else "", publishers)
 
+    def pause(self) -> None:
+        """Receive nothing until the next ``draw``."""
+        for display in self.topics.values():
+            display.pause()
+
     def draw(self) -> None:
         """Draw what is new, all at its place."""
         fixed = self._context.fixed

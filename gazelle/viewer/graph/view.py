@@ -10,6 +10,7 @@ from typing import Any
 from gazelle.viewer.graph.context import GraphContext
 from gazelle.viewer.graph.display_list import DisplayList
 from gazelle.viewer.graph.fitting import ViewFitter
+from gazelle.viewer.graph.panels import PanelSet
 from gazelle.viewer.graph.tools import PointerTools
 from gazelle.viewer.page.server import PageServer
 from gazelle_ros import Node, WallClock
@@ -76,6 +77,7 @@ class GraphView(Closeable):
         self._context.server.wake()
         if threading.current_thread() is not self._thread:
             self._thread.join()
+        self._panels.close()
         self._context.node.close()
         self._context.server.close()
 
@@ -95,6 +97,7 @@ class GraphView(Closeable):
         context.on_user_click(
             gui.add_button("Fit view"), lambda: self._fitter.fit(self._displays.extent)
         )
+        self._panels = PanelSet(context)
         self._displays = DisplayList(context)
 
     def _follow(self) -> None:
@@ -102,6 +105,8 @@ class GraphView(Closeable):
         server, looked = self._context.server, _LOOK
         while not self._stop.is_set():
             if not server.watched:
+                self._panels.pause()
+                self._displays.pause()
                 server.wait()
                 continue
             try:
@@ -109,6 +114,7 @@ class GraphView(Closeable):
                     looked = 0.0
                     self._discover()
                 self._picture()
+                self._panels.refresh()
             except (ApiError, UnreachableError) as error:
                 self._set_status(f"the master does not answer: {error}")
                 self._stop.wait(_LOOK)

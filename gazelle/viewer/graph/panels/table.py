@@ -1,0 +1,28 @@
+"""Table of all panels."""
+
+from __future__ import annotations
+
+from gazelle.viewer.graph.panels.console import ConsolePanel
+from gazelle.viewer.graph.panels.node_graph import NodeGraphPanel
+from gazelle.viewer.graph.panels.panel import GraphPanel
+from gazelle.viewer.graph.panels.plot import PlotPanel
+from gazelle.viewer.graph.panels.publisher import PublisherPanel
+from gazelle.viewer.graph.panels.service_caller import ServiceCallerPanel
+from gazelle.viewer.graph.panels.steering import SteeringPanel
+from gazelle.viewer.graph.panels.tf_tree import TfTreePanel
+from gazelle.viewer.graph.panels.topic_monitor import TopicMonitorPanel
+
+PANELS: dict[str, type[GraphPanel]] = {
+    panel.title: panel
+    for panel in (
+        ConsolePanel,
+        NodeGraphPanel,
+        PlotPanel,
+        PublisherPanel,
+        ServiceCallerPanel,
+        SteeringPanel,
+        TfTreePanel,
+        TopicMonitorPanel,
+    )
+}
+"""Panels by title, in the order of the page."""

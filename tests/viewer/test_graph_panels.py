@@ -1,0 +1,162 @@
+"""Panels of the page of a graph in a real browser: what rqt's plugins do, by clicking."""
+
+import re
+from contextlib import contextmanager
+
+import pytest
+
+pytest.importorskip("viser", reason="the extra 'web' is not installed")
+
+from gazelle_ros import Time, load_service
+from tests.ros.graph import until
+from tests.viewer.graph_page import graph_page, message
+
+pytestmark = pytest.mark.long
+
+
+@pytest.fixture(scope="module")
+def graph():
+    with graph_page() as made:
+        made.say_frames(odom=(0.0, 0.0), laser=(1.0, 0.0))
+        yield made
+
+
+@contextmanager
+def opened_panel(graph, title):
+    """Open a panel by the page's list, and close it by its button."""
+    graph.choose("Open panel", title)
+    until(lambda: graph.view._panels.panel(title) is not None)
+    try:
+        yield graph.view._panels.panel(title)
+        graph.click("Close")
+    except BaseException:
+        graph.view._panels.close_panel(title)
+        raise
+    finally:
+        until(lambda: graph.view._panels.titles == [])
+
+
+def test_the_console_filters_by_level_node_and_text(graph):
+    with opened_panel(graph, "Console"):
+
+        def log(level, name, text):
+            graph.say("/rosout", "rosgraph_msgs/Log", level=level, name=name, msg=text)
+
+        until(lambda: graph.view._context.node.subscription("/rosout") is not None)
+        log(2, "/planner", "ready for <b>goals</b>")
+        graph.wait_text("ready for <b>goals</b>")
+        log(8, "/driver", "the motor is hot")
+        graph.wait_text("the motor is hot")
+        graph.choose("At least", "Error")
+        until(lambda: graph.page.get_by_text("ready for").count() == 0)
+        graph.wait_text("the motor is hot")
+        graph.choose("At least", "Debug")
+        graph.fill("Node", "plan")
+        until(lambda: graph.page.get_by_text("the motor is hot").count() == 0)
+        graph.wait_text("ready for")
+
+
+def test_the_topic_monitor_shows_types_rates_and_messages(graph):
+    with opened_panel(graph, "Topic monitor"):
+        graph.fill("Topics", "speed")
+
+        def measured():
+            graph.say("/speed", "std_msgs/Float64", data=0.25)
+            row = graph.page.locator("tr", has_text="/speed")
+            cells = row.locator("td").all_inner_texts() if row.count() else []
+            return len(cells) == 6 and cells[1] == "std_msgs/Float64" and float(cells[4] or 0) > 1
+
+        until(measured)
+        graph.choose("Last message", "/speed")
+        graph.wait_text("data: 0.25")
+
+
+def test_the_node_graph_has_a_box_for_each_node_and_topic(graph):
+    with opened_panel(graph, "Node graph"):
+        graph.node.subscribe("/chatter", type(message("std_msgs/String")), lambda _: None)
+        graph.say("/chatter", "std_msgs/String", data="hello")
+        picture = graph.page.locator("svg", has_text="/chatter")
+        picture.wait_for()
+        texts = picture.locator("text").all_text_contents()
+        assert sorted(texts)[:2] == ["/chatter", "/talker"]
+        assert picture.locator("path[marker-end]").count() >= 2
+        graph.choose("Show", "nodes only")
+        until(lambda: graph.page.locator("svg", has_text="/talker").locator("rect").count() == 1)
+
+
+def test_the_tf_tree_names_broken_transforms(graph):
+    with opened_panel(graph, "tf tree"):
+        graph.page.locator("svg", has_text="laser").wait_for()
+        lost = message("geometry_msgs/TransformStamped", child_frame_id="arm")
+        lost.header.frame_id, lost.header.stamp = "table", Time.from_sec(1.0)
+        lost.transform.rotation.w = 1.0
+        graph.say("/tf", "tf2_msgs/TFMessage", transforms=[lost])
+        graph.wait_text("2 trees that no transform connects: map, table")
+
+
+def test_a_field_is_plotted(graph):
+    with opened_panel(graph, "Plot") as panel:
+        graph.say("/joint_states", "sensor_msgs/JointState", position=[0.5, 1.5])
+        graph.fill("Field", "/joint_states/position/1")
+        graph.click("Add")
+
+        def drawn():
+            graph.say("/joint_states", "sensor_msgs/JointState", position=[0.5, 1.5])
+            return panel._chart is not None and len(panel._chart.data[0]) > 3
+
+        until(drawn)
+        assert set(panel._chart.data[1]) == {1.5}
+        graph.page.locator(".u-legend", has_text="/joint_states/position/1").wait_for()
+        graph.choose("Remove", "/joint_states/position/1")
+        until(lambda: panel._chart is None)
+
+
+def test_messages_are_published(graph):
+    with opened_panel(graph, "Publisher"):
+        got = []
+        graph.node.subscribe("/goal_id", type(message("std_msgs/String")), got.append)
+        graph.fill("Topic", "/goal_id")
+        kind = graph.box("Type")
+        until(lambda: kind.input_value() == "std_msgs/String")
+        graph.fill("Message", "data: abc")
+        graph.click("Publish once")
+        until(lambda: [each.data for each in got] == ["abc"])
+        graph.fill("Message", "dada: abc")
+        graph.click("Publish once")
+        graph.wait_text("This cannot be done")
+
+
+def test_services_are_called(graph):
+    add = load_service("roscpp_tutorials/TwoInts")
+    server = graph.node.serve("/add", add, lambda asked: {"sum": asked.a + asked.b})
+    with opened_panel(graph, "Service caller"):
+        graph.fill("Filter", "/add")
+        graph.choose("Service", "/add")
+        request = graph.box("Request")
+        until(lambda: request.input_value() == "a: 0\nb: 0")
+        graph.fill("Request", "{a: 40, b: 2}")
+        graph.click("Call")
+        graph.wait_text("sum: 42")
+    server.close()
+
+
+def test_a_robot_is_steered_and_stops_with_the_panel(graph):
+    got = []
+    graph.node.subscribe("/cmd_vel", type(message("geometry_msgs/Twist")), got.append)
+    with opened_panel(graph, "Robot steering"):
+        graph.fill("Linear [m/s]", "0.4")
+        until(lambda: len(got) > 3)
+        assert {(each.linear.x, each.angular.z) for each in got} == {(0.4, 0.0)}
+    until(lambda: got[-1].linear.x == 0.0)
+
+
+def test_layouts_of_diagrams_lead_downwards():
+    from gazelle.viewer.graph.panels.diagram import DiagramBox, diagram, layers_of
+
+    arrows = [("a", "b", ""), ("b", "c", ""), ("a", "c", ""), ("d", "c", ""), ("c", "c", "")]
+    layers = layers_of(list("abcd"), arrows)
+    assert layers == [["a", "d"], ["b"], ["c"]]
+    picture = diagram({each: DiagramBox((f"<{each}>",)) for each in "abcd"}, arrows)
+    assert re.findall("&lt;(.)&gt;", picture) == list("abcd")
+    assert layers_of([], []) == []
+    assert diagram({}, []).startswith("<svg")
