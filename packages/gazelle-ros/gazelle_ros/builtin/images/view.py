@@ -105,5 +105,5 @@ def _stretched(settings: ViewSettings, pixels: Pixels) -> Pixels:
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Republish images as they are shown until shutdown; returns the exit code."""
+    """Publish images as they are shown until shutdown; returns the exit code."""
     return run_node(arguments, "image_view", ImageView, anonymous=True)
