@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.cli.grounding import add_ground
 from gazelle.cli.spawning import parse_spawn, spawn
+from gazelle.errors import Error
 from gazelle_ros.cli.parsing import (
     add_environment_options,
     add_file_options,
@@ -21,6 +22,26 @@ if TYPE_CHECKING:
     from gazelle.simulation import Simulation
 
 _LEAST, _MOST = 16, 8192
+_SIZE = 960, 600
+
+_WORLD, _RECORDING, _BAG, _RUN = "a world or a robot", "a recording", "a bag", "a training run"
+_SCENES = (_WORLD, _RECORDING)
+# What takes the options that not every source has.
+_TAKERS = {
+    "--seed": (_WORLD, _RUN),
+    "--eye": _SCENES,
+    "--target": _SCENES,
+    "--follow": _SCENES,
+    "--top": (*_SCENES, _BAG),
+    "--size": (*_SCENES, _BAG),
+    "--no-ground": (_WORLD,),
+    "--spawn": (_WORLD,),
+    "--drive": (_WORLD,),
+    "--topic": (_BAG,),
+    "--engine": (_WORLD, _RUN),
+    **dict.fromkeys(("--task", "--import", "--trust", "--world", "--robot"), (_RUN,)),
+    **dict.fromkeys(("--goals", "--starts", "--option"), (_RUN,)),
+}
 
 
 def add_source(parser: argparse.ArgumentParser) -> None:
@@ -41,7 +62,7 @@ def add_source(parser: argparse.ArgumentParser) -> None:
         "--top", action="store_true", help="a world in the plane, or a bag, from above"
     )
     look.add_argument(
-        "--size", metavar="WxH", type=_size, default=(960, 600), help="pixels (default 960x600)"
+        "--size", metavar="WxH", type=_size, help=f"pixels (default {_SIZE[0]}x{_SIZE[1]})"
     )
     add_ground(look)
     look.add_argument(
@@ -77,6 +98,7 @@ def opened(args: argparse.Namespace) -> Any:
 
     path = Path(args.source)
     if sources.is_run(path):
+        _refuse_others(args, _RUN)
         return sources.PolicySource(
             path,
             seed=10_000 if args.seed is None else args.seed,
@@ -88,10 +110,29 @@ def opened(args: argparse.Namespace) -> Any:
     if path.suffix == ".bag":
         from gazelle.viewer.bag_top_view import bag_source
 
-        return bag_source(path, args.topic, top=args.top, size=args.size)
+        _refuse_others(args, _BAG)
+        return bag_source(path, args.topic, top=args.top, size=args.size or _SIZE)
     if path.suffix == ".jsonl":
+        _refuse_others(args, _RECORDING)
         return sources.RecordingSource(path, lambda simulation: _camera(simulation, args))
+    _refuse_others(args, _WORLD)
     return _running(args)
+
+
+def _refuse_others(args: argparse.Namespace, kind: str) -> None:
+    """Check that no option was written that this kind of source has no use for.
+
+    Raises:
+        Error: There is one.
+    """
+    values = {"--import": args.imports, "--no-ground": not args.ground}
+    for option, takers in _TAKERS.items():
+        value = values.get(option) if option in values else getattr(args, option.strip("-"))
+        if kind not in takers and value not in (None, False, "", []):
+            raise Error(
+                f"{option} does not apply to {kind}, which {args.source} is",
+                hint=f"it applies to {' or '.join(takers)}",
+            )
 
 
 def _running(args: argparse.Namespace) -> Any:
@@ -126,9 +167,13 @@ def _camera(simulation: Simulation, args: argparse.Namespace) -> Any:
     from gazelle.viewer.scene_camera import SceneCamera
 
     if args.top:
-        return TopView(simulation, size=args.size)
+        return TopView(simulation, size=args.size or _SIZE)
     return SceneCamera(
-        simulation, eye=args.eye, target=args.target, follow=args.follow, size=args.size
+        simulation,
+        eye=args.eye,
+        target=args.target,
+        follow=args.follow,
+        size=args.size or _SIZE,
     )
 
 
