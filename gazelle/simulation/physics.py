@@ -273,7 +273,7 @@ class PhysicsProperties:
 
     @property
     def integrator(self) -> str | None:
-        """``euler``, as ODE, or ``rk4``; None means ``euler``. See docs/explanation/physics.md."""
+        """``euler``, as ODE, or ``rk4``; None: Euler with gyroscopic forces at mid-step, docs/explanation/physics.md."""
         return self.profile.integrator
 
     @integrator.setter
