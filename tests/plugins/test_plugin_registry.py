@@ -210,5 +210,5 @@ def test_a_broken_plugin_of_another_package_hides_none_in_the_list(monkeypatch, 
     listed = " ".join(capsys.readouterr().out.split())
     assert "libaaa_broken.so cannot be had: No module named 'nowhere_at_all'" in listed
     assert "libgazebo_ros_p3d.so the true pose of a body" in listed
-    assert "libgazebo_ros_video.so pictures on models (not simulated: " in listed
+    assert "libgazebo_ros_video.so images projected on models (not simulated: " in listed
     assert "libgazebo_ros_api_plugin.so services, topics" in listed

@@ -166,7 +166,7 @@ def test_a_visuals_plugin_is_known_too(write):
     with pytest.warns(SimulationWarning) as told:
         gazelle.Simulation(formats.load_string(text)).close()
     texts = [str(each.message) for each in told]
-    assert "pictures on models are not shown" in texts[0]
+    assert "projected images are not shown" in texts[0]
     assert "belongs into a <model>, not into a <visual>" in texts[1]
     assert len(texts) == 2
     again = formats.load_string(formats.to_string(formats.load_string(text), "sdf"))
