@@ -150,6 +150,32 @@ def test_a_robot_is_steered_and_stops_with_the_panel(graph):
     until(lambda: got[-1].linear.x == 0.0)
 
 
+ARM = """<robot name="arm"><link name="base"/><link name="tip"/><link name="end"/>
+<joint name="elbow" type="revolute"><parent link="base"/><child link="tip"/><axis xyz="0 0 1"/>
+<limit lower="0.5" upper="1.5" effort="1" velocity="1"/></joint>
+<joint name="copy" type="continuous"><parent link="tip"/><child link="end"/>
+<mimic joint="elbow"/></joint></robot>"""
+
+
+def test_joints_have_sliders_where_a_node_takes_them(graph):
+    got = []
+    kind = type(message("sensor_msgs/JointState"))
+    sliders = graph.node.subscribe("/left/arm/gui/sliders", kind, got.append)
+    graph.node.set_param("/left/robot_description", ARM)
+    try:
+        with opened_panel(graph, "Joint sliders") as panel:
+            until(lambda: "elbow" in panel._sliders)
+            until(lambda: graph.box("Topic").input_value() == "/left/arm/gui/sliders")
+            assert (list(panel._sliders), panel._sliders["elbow"].value) == (["elbow"], 1.0)
+            until(lambda: sliders.num_connections)
+            graph.fill("elbow", "1.25")
+            until(lambda: got)
+            assert (list(got[-1].name), list(got[-1].position)) == (["elbow"], [1.25])
+    finally:
+        graph.node.delete_param("/left/robot_description")
+        sliders.close()
+
+
 def test_layouts_of_diagrams_lead_downwards():
     from gazelle.viewer.graph.panels.diagram import DiagramBox, diagram, layers_of
 

@@ -1,12 +1,13 @@
 """From joints to transforms."""
 
+import itertools
 import math
 import subprocess
 import sys
 import time
 
 import pytest
-from ros.graph import until
+from ros.graph import Background, until
 
 from gazelle_ros.base.errors import RosError
 from gazelle_ros.base.rotations import rotate
@@ -14,6 +15,8 @@ from gazelle_ros.builtin.registry import main_of
 from gazelle_ros.messages import load_message
 from gazelle_ros.robot import JointStatePublisher, RobotStatePublisher, read_joints
 from gazelle_ros.time import Time
+from gazelle_ros.tools.graph import GraphInspector
+from gazelle_ros.tools.nodes import kill
 
 ROBOT = """
 <robot name="r">
@@ -130,6 +133,79 @@ def test_joints_nobody_measures_are_zero(make_node):
     until(lambda: got[-1].position[1] == 1.0)
     assert got[-1].position[2] == pytest.approx(-1.9)
     assert got[-1].velocity == pytest.approx((0.0, 0.5, 0.0))
+
+
+def published(make_node, **parameters):
+    """Return what the node publishes with some parameters, as a list that grows."""
+    node, watcher = make_node("jsp"), make_node("watcher")
+    for name, value in {"rate": 50, **parameters}.items():
+        node.set_param(f"~{name}", value)
+    got = []
+    watcher.subscribe("/joint_states", load_message("sensor_msgs/JointState"), got.append)
+    JointStatePublisher(node, read_joints(ROBOT))
+    until(lambda: got)
+    return got
+
+
+def test_joints_depend_on_others_by_parameters(make_node):
+    dependents = {"turn": {"parent": "lift", "factor": 2.0, "offset": 0.5}}
+    got = published(make_node, dependent_joints=dependents, zeros={"lift": 0.3})
+    assert got[0].position == pytest.approx((0.3, 1.1, -2.1))
+
+
+def test_mimic_tags_may_be_ignored(make_node):
+    got = published(make_node, use_mimic_tags=False, zeros={"turn": 1.0})
+    assert got[0].position == pytest.approx((0.4, 1.0, 0.0))
+
+
+def test_joints_move_to_and_fro_by_a_delta(make_node):
+    got = published(make_node, delta=0.1)
+    until(lambda: len(got) >= 12)
+    lifts, turns = ([each.position[place] for each in got[:12]] for place in (0, 1))
+    steps = [b - a for a, b in itertools.pairwise(lifts)]
+    assert {round(each, 9) for each in steps} == {0.1, 0.0, -0.1}
+    assert (min(lifts), max(lifts)) == pytest.approx((0.2, 0.6))
+    assert [b - a for a, b in itertools.pairwise(turns)] == pytest.approx([0.1] * 11)
+
+
+@pytest.mark.parametrize(
+    ("dependents", "words"),
+    [
+        ({"turn": {"factor": 2.0}}, "has no joint and its parent"),
+        ({"turns": {"parent": "lift"}}, "has no joint and its parent"),
+        ({"turn": {"parent": "copy"}}, "or follows it"),
+    ],
+)
+def test_wrong_dependents_are_refused(make_node, dependents, words):
+    node = make_node("jsp")
+    node.set_param("~dependent_joints", dependents)
+    with pytest.raises(RosError, match=words):
+        JointStatePublisher(node, read_joints(ROBOT))
+
+
+def test_the_node_with_sliders_takes_positions_and_names_the_page(
+    master, make_node, monkeypatch, caplog
+):
+    monkeypatch.setenv("ROS_MASTER_URI", master.uri)
+    watcher, state = make_node("watcher"), load_message("sensor_msgs/JointState")
+    watcher.set_param("/robot_description", ROBOT)
+    got = []
+    watcher.subscribe("/joint_states", state, got.append)
+    main = main_of("joint_state_publisher_gui", "joint_state_publisher_gui")
+    running = Background(lambda _stop: main(["_rate:=50", "_zeros:={turn: 1.0}", "__name:=gui"]))
+    until(lambda: got)
+    assert got[0].position == pytest.approx((0.4, 1.0, -1.9))
+    assert (
+        "the panel 'Joint sliders' of `gazelle view`, which publishes on /gui/sliders"
+        in caplog.text
+    )
+    sender = watcher.advertise("/gui/sliders", state)
+    until(lambda: sender.num_connections)
+    sender.publish(state(name=["lift"], position=[0.5]))
+    until(lambda: got[-1].position[0] == 0.5)
+    with GraphInspector("rosnode", master_uri=master.uri) as graph:
+        assert kill(graph, ["/gui"]) == []
+    running.end(stop=False)
 
 
 def test_launch_files_find_both_nodes():

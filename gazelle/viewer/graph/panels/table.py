@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from gazelle.viewer.graph.panels.console import ConsolePanel
+from gazelle.viewer.graph.panels.joint_sliders import JointSlidersPanel
 from gazelle.viewer.graph.panels.node_graph import NodeGraphPanel
 from gazelle.viewer.graph.panels.panel import GraphPanel
 from gazelle.viewer.graph.panels.plot import PlotPanel
@@ -16,6 +17,7 @@ PANELS: dict[str, type[GraphPanel]] = {
     panel.title: panel
     for panel in (
         ConsolePanel,
+        JointSlidersPanel,
         NodeGraphPanel,
         PlotPanel,
         PublisherPanel,

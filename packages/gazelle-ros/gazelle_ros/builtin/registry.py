@@ -78,6 +78,9 @@ _OWN = {
         BuiltinPackage("joint_state_publisher", {
             "joint_state_publisher": "gazelle_ros.builtin.robot:joint_main",
         }),
+        BuiltinPackage("joint_state_publisher_gui", {
+            "joint_state_publisher_gui": "gazelle_ros.builtin.robot:sliders_main",
+        }),
         BuiltinPackage("joy", {"joy_node": "gazelle_ros.builtin.joysticks.joy_node:main"}),
         BuiltinPackage("joy_teleop", dict.fromkeys(("joy_teleop", "joy_teleop.py"), "gazelle_ros.builtin.joysticks.joy_teleop:main")),
         BuiltinPackage("kobuki_bumper2pc", nodelets={

@@ -1,7 +1,8 @@
-"""``robot_state_publisher`` and ``joint_state_publisher``."""
+"""``robot_state_publisher``, ``joint_state_publisher`` and ``joint_state_publisher_gui``."""
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Sequence
 
 from gazelle_ros.base.errors import RosError
@@ -10,6 +11,8 @@ from gazelle_ros.node import Node
 from gazelle_ros.robot import JointStatePublisher, JointTree, RobotStatePublisher, read_joints
 
 _PARAMETER = "robot_description"
+_SLIDERS = "~sliders"
+_LOG = logging.getLogger("gazelle.ros.joints")
 
 
 def state_main(arguments: Sequence[str]) -> int:
@@ -25,6 +28,20 @@ def joint_main(arguments: Sequence[str]) -> int:
     found = parse_arguments(arguments, "joint_state_publisher")
     with found.start() as node:
         JointStatePublisher(node, described_joints(node))
+        return spin(node)
+
+
+def sliders_main(arguments: Sequence[str]) -> int:
+    """Send positions of joints as sliders of a page say; returns the exit code."""
+    found = parse_arguments(arguments, "joint_state_publisher_gui")
+    with found.start() as node:
+        JointStatePublisher(node, described_joints(node), [_SLIDERS])
+        _LOG.warning(
+            "%s opens no window: its sliders are the panel 'Joint sliders' of `gazelle view`, which "
+            "publishes on %s",
+            node.name,
+            node.resolve(_SLIDERS),
+        )
         return spin(node)
 
 

@@ -89,7 +89,7 @@ def read_joints(text: str) -> JointTree:
         if joint.name in joints:
             raise RosError(f"two joints are called '{joint.name}'", line=_line(element))
         joints[joint.name] = joint
-    _check_mimics(joints)
+    check_mimics(joints)
     return joints
 
 
@@ -132,7 +132,12 @@ def _mimic(element: Element | None) -> TreeMimic | None:
     )
 
 
-def _check_mimics(joints: JointTree) -> None:
+def check_mimics(joints: JointTree) -> None:
+    """Check that joints follow others that are there, and none itself.
+
+    Raises:
+        RosError: One does not.
+    """
     for joint in joints.values():
         seen, each = {joint.name}, joint
         while each.mimic is not None:
