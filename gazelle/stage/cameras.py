@@ -103,18 +103,18 @@ class Cameras:
         self.draw([(robot, which, world)])
         return self._seen[robot, which, world]
 
-    def draw(self, wanted: Iterable[tuple[int, int, int]]) -> None:
+    def draw(self, cameras: Iterable[tuple[int, int, int]]) -> None:
         """Render the cameras that ``picture`` will need, all with the same lens at once.
 
         Args:
-            wanted: Robots, numbers of cameras on them, and worlds.
+            cameras: Robots, numbers of cameras on them, and worlds.
 
         Raises:
             SimulationError: A robot has no camera of this number.
         """
         self._forget_what_moved()
         late: defaultdict[PinholeLens, list[tuple[int, int, int]]] = defaultdict(list)
-        for key in wanted:
+        for key in cameras:
             if key not in self._seen:
                 late[self._camera(*key[:2]).lens].append(key)
         for lens, keys in late.items():

@@ -63,17 +63,17 @@ def open_outputs(fleet: StageFleet, robot: Robot) -> None:
     for unit in robot.sensors.values():
         for plugin in unit.description.plugins:
             if isinstance(plugin, StagePlugin):
-                given = plugin.parameters
-                topic, own = given.get("topicName", "base_scan"), given.get("robotNamespace", "")
-                frame = given.get("frameName", "base_laser_link")
+                tags = plugin.parameters
+                topic, own = tags.get("topicName", "base_scan"), tags.get("robotNamespace", "")
+                frame = tags.get("frameName", "base_laser_link")
                 robot.outputs[topic] = SensorOutput(
                     unit, absolute(own, topic), LaserScan, frame=frame, namespace=own
                 )
     for plugin in robot.description.plugins:
         if isinstance(plugin, StagePlugin) and robot.name in fleet.named:
-            given = plugin.parameters
-            own = given.get("robotNamespace", "")
-            frames = given.get("odometryFrame", "odom"), given.get("robotBaseFrame", "base_link")
+            tags = plugin.parameters
+            own = tags.get("robotNamespace", "")
+            frames = tags.get("odometryFrame", "odom"), tags.get("robotBaseFrame", "base_link")
             measure = partial(_odometry, fleet, robot.name, frames)
             robot.outputs["odom"] = StepOutput(robot, absolute(own, "odom"), Odometry, measure, own)
 

@@ -55,7 +55,7 @@ class StageRunner(WorldPlugin):
         if now != self._bound:
             self._bound = now
             fleet.engine.surround(motion.first, motion.last)
-        self._follow(wanted=bool(fleet.devices))
+        self._follow(enabled=bool(fleet.devices))
         systems = self._systems()
         return None if systems is None else tuple(systems)
 
@@ -69,11 +69,11 @@ class StageRunner(WorldPlugin):
             found += its
         return found
 
-    def _follow(self, *, wanted: bool) -> None:
-        if wanted == self._following:
+    def _follow(self, *, enabled: bool) -> None:
+        if enabled == self._following:
             return
-        self._following = wanted
-        if wanted:
+        self._following = enabled
+        if enabled:
             self._steps.followers.append(self._move_devices)
         else:
             self._steps.followers.remove(self._move_devices)

@@ -117,16 +117,16 @@ class Senses(StageBodies):
         """
         return self._cameras.picture(self.robot(name).index, camera, self._one(world))
 
-    def draw(self, wanted: Iterable[tuple[str, int, int]]) -> None:
+    def draw(self, cameras: Iterable[tuple[str, int, int]]) -> None:
         """Render at once, by all threads, what ``picture`` will need in this step.
 
         Args:
-            wanted: Names of robots, numbers of cameras on them, and worlds.
+            cameras: Names of robots, numbers of cameras on them, and worlds.
 
         Raises:
             SimulationError: There is no such robot, camera or world.
         """
-        rows = list(wanted)
+        rows = list(cameras)
         if not all(isinstance(row, tuple) and len(row) == 3 for row in rows):
             raise SimulationError(f"pictures are of (robot, camera, world), not {rows!r:.60}")
         self._cameras.draw((self.robot(r).index, camera, self._one(w)) for r, camera, w in rows)

@@ -52,16 +52,16 @@ def read_parameters(node: Node) -> StageParameters:
         RosError: One of the others is not what it must be.
     """
     own = f"{node.name}/"
-    given = {
+    node_values = {
         name.removeprefix(own): node.get_param(name)
         for name in node.param_names()
         if name.startswith(own)
     }
     values: dict[str, Any] = {}
     for field in fields(StageParameters):
-        if field.name not in given:
+        if field.name not in node_values:
             continue
-        value, name = given.pop(field.name), own + field.name
+        value, name = node_values.pop(field.name), own + field.name
         try:
             values[field.name] = _checked(field.name, field.default, value, name)
         except RosError as error:
@@ -69,7 +69,7 @@ def read_parameters(node: Node) -> StageParameters:
                 raise
             text = f"{error}; {field.default} is taken"
             warnings.warn(text, SimulationWarning, stacklevel=2)
-    _name_slips(given, own)
+    _name_slips(node_values, own)
     return StageParameters(**values)
 
 

@@ -24,7 +24,7 @@ class BitmapCells:
 
     cells: dict[Path, NDArray[np.bool_]] = field(default_factory=dict)
 
-    def load(self, path: Path, given: Property) -> NDArray[np.bool_]:
+    def load(self, path: Path, entry: Property) -> NDArray[np.bool_]:
         """Load the walls of a picture, the row of least y first, cropped to what is drawn.
 
         Raises:
@@ -34,13 +34,13 @@ class BitmapCells:
             try:
                 dark = read_picture(path)[::-1, :, 0] <= WALL
             except FormatError as error:
-                raise given.fail(f"'{path}': {error.message}", error.hint) from error
+                raise entry.fail(f"'{path}': {error.message}", error.hint) from error
             rows, columns = np.flatnonzero(dark.any(axis=1)), np.flatnonzero(dark.any(axis=0))
             if not len(rows):
-                raise given.fail(f"the picture '{path}' shows no walls: it has no dark pixel")
+                raise entry.fail(f"the picture '{path}' shows no walls: it has no dark pixel")
             cells = np.ascontiguousarray(dark[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1])
             if _edges(cells) > MAX_EDGES:
-                raise given.fail(f"the picture '{path}' has more than {MAX_EDGES} edges")
+                raise entry.fail(f"the picture '{path}' has more than {MAX_EDGES} edges")
             self.cells[path] = cells
         return self.cells[path]
 

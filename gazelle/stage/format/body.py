@@ -34,11 +34,13 @@ class ModelBody:
     is_plain: bool = False  # a box, as the file names no body
 
 
-def read_body(given: Properties, size: StageSize, context: Context, *, solid: bool) -> ModelBody:
+def read_body(
+    properties: Properties, size: StageSize, context: Context, *, solid: bool
+) -> ModelBody:
     """Read the blocks, bitmap and boundary of a model, scaled to its size.
 
     Args:
-        given: The model's properties.
+        properties: The model's properties.
         size: Its size.
         context: Finds pictures.
         solid: Whether a model of its type has a body by default.
@@ -46,14 +48,14 @@ def read_body(given: Properties, size: StageSize, context: Context, *, solid: bo
     Raises:
         FormatError: A block or bitmap cannot be used.
     """
-    blocks = [read_block(part, given) for part in given.entity.parts if is_block(part)]
-    blocks += _old_blocks(given)
-    bitmap = _read_bitmap(given, context)
-    bare = given.flag("noblocks", default=False)
+    blocks = [read_block(part, properties) for part in properties.entity.parts if is_block(part)]
+    blocks += _old_blocks(properties)
+    bitmap = _read_bitmap(properties, context)
+    bare = properties.flag("noblocks", default=False)
     plain = not blocks and bitmap is None and solid and not bare
     if plain:
         blocks = [UNIT_BLOCK]
-    boundary = given.flag("boundary", default=False)
+    boundary = properties.flag("boundary", default=False)
     if not blocks and bitmap is None:
         return ModelBody()
     body = _scaled(blocks, bitmap, size)
@@ -99,60 +101,62 @@ def read_block(entity: Entity, outer: Properties) -> StageBlock:
     """
     # what a model macro of that name says is of models
     own = entity.type != "block"
-    given = Properties(entity, outer.reading, outer.units, own=own)
-    block = _block(given, "", entity)
-    color = given.color()
-    given.report_unknown()
+    properties = Properties(entity, outer.reading, outer.units, own=own)
+    block = _block(properties, "", entity)
+    color = properties.color()
+    properties.report_unknown()
     return block if isinstance(color, str | None) else StageBlock(block.points, block.z, color)
 
 
-def _block(given: Properties, prefix: str, entity: Entity) -> StageBlock:
-    wanted = given.whole(f"{prefix}points", 0, least=0)
-    listed = {each.name for each in given.matching(f"{prefix}point[")}
+def _block(properties: Properties, prefix: str, entity: Entity) -> StageBlock:
+    wanted = properties.whole(f"{prefix}points", 0, least=0)
+    listed = {each.name for each in properties.matching(f"{prefix}point[")}
     points: list[tuple[float, float]] = []
     if wanted > MAX_POINTS:
         raise entity.fail(f"a block of more than {MAX_POINTS} points")
     for index in range(wanted):
         name = f"{prefix}point[{index}]"
         if name in listed:
-            x, y = given.numbers(name, "ll", (0.0, 0.0))
+            x, y = properties.numbers(name, "ll", (0.0, 0.0))
             points.append((x, y))
     if len(points) < wanted or len(listed) > wanted:
-        given.reading.remark(
+        properties.reading.remark(
             f"'points' is {wanted}, but {len(listed)} are given; {len(points)} are used",
             entity.source,
         )
     if len(points) < 3:
         raise entity.fail(f"a block needs 3 points at least, found {len(points)}")
-    low, high = given.numbers(f"{prefix}z", "ll", (0.0, 1.0))
+    low, high = properties.numbers(f"{prefix}z", "ll", (0.0, 1.0))
     if high < low:
         raise entity.fail(f"the top of a block is below its bottom: z is [{low:g} {high:g}]")
     return StageBlock(tuple(points), (low, high))
 
 
-def _old_blocks(given: Properties) -> list[StageBlock]:
+def _old_blocks(properties: Properties) -> list[StageBlock]:
     """Return ``blocks N block[0].points ...``, as files of Stage 3 have it."""
-    count = given.whole("blocks", 0, least=0)
-    entity = given.entity
+    count = properties.whole("blocks", 0, least=0)
+    entity = properties.entity
     found = []
     for index in range(min(count, MAX_POINTS)):
-        if not given.has(f"block[{index}].points"):
+        if not properties.has(f"block[{index}].points"):
             raise entity.fail(f"there is no 'block[{index}].points', and 'blocks' is {count}")
-        found.append(_block(given, f"block[{index}].", entity))
-        given.matching(f"block[{index}].")
+        found.append(_block(properties, f"block[{index}].", entity))
+        properties.matching(f"block[{index}].")
     return found
 
 
-def _read_bitmap(given: Properties, context: Context) -> StageBitmap | None:
-    uri = given.text("bitmap")
-    written = given.get("bitmap")
+def _read_bitmap(properties: Properties, context: Context) -> StageBitmap | None:
+    uri = properties.text("bitmap")
+    written = properties.get("bitmap")
     if written is None:
         return None
     if not uri:
         raise written.fail("'bitmap' names no picture")
-    path = find_beside(uri, written.script, given.reading, context.folder)
+    path = find_beside(uri, written.script, properties.reading, context.folder)
     if path is None or not path.is_file():
-        raise written.fail(f"there is no picture '{uri}'", looked(uri, given.reading), ResolveError)
+        raise written.fail(
+            f"there is no picture '{uri}'", looked(uri, properties.reading), ResolveError
+        )
     cells = context.pictures.load(path, written)
     rows, columns = cells.shape
     return StageBitmap(uri, path, cells, (0.0, 0.0), (float(columns), float(rows)), (0.0, 1.0))

@@ -34,36 +34,36 @@ _NO_LENGTH = StageSize(0.0, 0.0, 0.0)
 _USUAL_SIZE = StageSize()
 
 
-def read_position(given: Properties) -> StagePosition:
+def read_position(properties: Properties) -> StagePosition:
     """Read ``position``."""
     default = StagePosition()
-    given.note("odom", "'odom' is no longer used", "say 'localization_origin'")
-    drive = given.choice("drive", ("diff", "omni", "car"), "diff")
-    localization = given.choice("localization", ("gps", "odom"), "gps")
-    origin, error = given.get("localization_origin"), given.get("odom_error")
+    properties.note("odom", "'odom' is no longer used", "say 'localization_origin'")
+    drive = properties.choice("drive", ("diff", "omni", "car"), "diff")
+    localization = properties.choice("localization", ("gps", "odom"), "gps")
+    origin, error = properties.get("localization_origin"), properties.get("odom_error")
     return StagePosition(
         drive="omni" if drive == "omni" else "car" if drive == "car" else "diff",
-        velocity=quartet(given, "velocity", _ORIGIN),
+        velocity=quartet(properties, "velocity", _ORIGIN),
         localization="odom" if localization == "odom" else "gps",
         localization_origin=(
-            None if origin is None else quartet(given, "localization_origin", _ORIGIN)
+            None if origin is None else quartet(properties, "localization_origin", _ORIGIN)
         ),
-        odom_error=None if error is None else quartet(given, "odom_error", _ORIGIN),
-        wheelbase=_positive(given, "wheelbase", default.wheelbase),
-        velocity_bounds=_bounds(given, "velocity_bounds", default.velocity_bounds),
-        acceleration_bounds=_bounds(given, "acceleration_bounds", default.acceleration_bounds),
+        odom_error=None if error is None else quartet(properties, "odom_error", _ORIGIN),
+        wheelbase=_positive(properties, "wheelbase", default.wheelbase),
+        velocity_bounds=_bounds(properties, "velocity_bounds", default.velocity_bounds),
+        acceleration_bounds=_bounds(properties, "acceleration_bounds", default.acceleration_bounds),
     )
 
 
-def quartet(given: Properties, name: str, default: Quartet) -> Quartet:
+def quartet(properties: Properties, name: str, default: Quartet) -> Quartet:
     """Return x, y, z and an angle."""
-    x, y, z, yaw = given.numbers(name, "llla", default)
+    x, y, z, yaw = properties.numbers(name, "llla", default)
     return (x, y, z, yaw)
 
 
-def _positive(given: Properties, name: str, default: float) -> float:
-    value = given.length(name, default)
-    written = given.get(name)
+def _positive(properties: Properties, name: str, default: float) -> float:
+    value = properties.length(name, default)
+    written = properties.get(name)
     if written is not None and value <= 0.0:
         raise written.fail(f"'{name}' must be greater than zero, found {value:g}")
     return value
@@ -72,11 +72,11 @@ def _positive(given: Properties, name: str, default: float) -> float:
 Bounds = tuple[tuple[float, float], tuple[float, float], tuple[float, float], tuple[float, float]]
 
 
-def _bounds(given: Properties, name: str, default: Bounds) -> Bounds:
+def _bounds(properties: Properties, name: str, default: Bounds) -> Bounds:
     flat = tuple(value for pair in default for value in pair)
-    x0, x1, y0, y1, z0, z1, a0, a1 = given.numbers(name, "llllllaa", flat)
+    x0, x1, y0, y1, z0, z1, a0, a1 = properties.numbers(name, "llllllaa", flat)
     bounds = ((x0, x1), (y0, y1), (z0, z1), (a0, a1))
-    written = given.get(name)
+    written = properties.get(name)
     if written is not None and any(low > high for low, high in bounds):
         raise written.fail(
             f"in '{name}' a least value is greater than the greatest: {written.token.text}"
@@ -84,151 +84,156 @@ def _bounds(given: Properties, name: str, default: Bounds) -> Bounds:
     return bounds
 
 
-def read_ranger(given: Properties) -> StageRanger:
+def read_ranger(properties: Properties) -> StageRanger:
     """Read ``ranger`` with its ``sensor`` parts."""
-    parts = [part for part in given.entity.parts if part.type == "sensor"]
-    return StageRanger(tuple(read_sensor(part, given) for part in parts))
+    parts = [part for part in properties.entity.parts if part.type == "sensor"]
+    return StageRanger(tuple(read_sensor(part, properties) for part in parts))
 
 
 def read_sensor(entity: Entity, outer: Properties) -> StageSensor:
     """Read ``sensor``."""
-    given = Properties(entity, outer.reading, outer.units)
+    properties = Properties(entity, outer.reading, outer.units)
     default = StageSensor()
-    size = given.size("size", StageSize(*default.size))
-    constant, share, angle = _noise(given, default.noise)
-    color = given.color()
+    size = properties.size("size", StageSize(*default.size))
+    constant, share, angle = _noise(properties, default.noise)
+    color = properties.color()
     for name in ("range_min", "range_max", "view"):
-        given.note(
+        properties.note(
             name,
             f"'{name}' means nothing to Stage 4, and is ignored",
             "write range [ min max ] and fov",
         )
     sensor = StageSensor(
-        pose=quartet(given, "pose", _ORIGIN),
+        pose=quartet(properties, "pose", _ORIGIN),
         size=size,
-        range=_range(given, "range", default.range),
-        fov=given.angle("fov", default.fov),
-        samples=_samples(given, default.samples),
+        range=_range(properties, "range", default.range),
+        fov=properties.angle("fov", default.fov),
+        samples=_samples(properties, default.samples),
         noise=(constant, share, angle),
         color=None if isinstance(color, str) else color,
     )
-    given.report_unknown()
+    properties.report_unknown()
     return sensor
 
 
-def _range(given: Properties, name: str, default: tuple[float, float]) -> tuple[float, float]:
-    low, high = given.numbers(name, "ll", default)
-    written = given.get(name)
+def _range(properties: Properties, name: str, default: tuple[float, float]) -> tuple[float, float]:
+    low, high = properties.numbers(name, "ll", default)
+    written = properties.get(name)
     if written is not None and not 0.0 <= low <= high:
         raise written.fail(f"'{name}' must be [ nearest farthest ], found {written.token.text}")
     return low, high
 
 
-def _noise(given: Properties, default: tuple[float, ...]) -> tuple[float, ...]:
-    values, written = given.numbers("noise", "lfa", default), given.get("noise")
+def _noise(properties: Properties, default: tuple[float, ...]) -> tuple[float, ...]:
+    values, written = properties.numbers("noise", "lfa", default), properties.get("noise")
     if written is not None and values[0] < 0.0:
         raise written.fail("the first number of 'noise' is a variance, which is never negative")
     return values
 
 
-def _samples(given: Properties, default: int) -> int:
-    value = given.whole("samples", default, least=1)
-    written = given.get("samples")
+def _samples(properties: Properties, default: int) -> int:
+    value = properties.whole("samples", default, least=1)
+    written = properties.get("samples")
     if written is not None and value > MAX_SAMPLES:
         raise written.fail(f"more than {MAX_SAMPLES} samples")
     return value
 
 
-def read_laser(given: Properties) -> StageRanger:
+def read_laser(properties: Properties) -> StageRanger:
     """Read ``laser`` of Stage 3, which is a ranger with one sensor now."""
-    low, high = given.length("range_min", 0.0), given.length("range_max", 8.0)
-    fov = given.angle("fov", math.pi)
-    given.reading.remark(
+    low, high = properties.length("range_min", 0.0), properties.length("range_max", 8.0)
+    fov = properties.angle("fov", math.pi)
+    properties.reading.remark(
         "'laser' is a model of Stage 3, and read as a ranger",
-        given.entity.source,
+        properties.entity.source,
         "write a ranger with sensor( range [ min max ] fov ... samples ... )",
     )
-    return StageRanger((StageSensor(range=(low, high), fov=fov, samples=_samples(given, 180)),))
+    return StageRanger(
+        (StageSensor(range=(low, high), fov=fov, samples=_samples(properties, 180)),)
+    )
 
 
-def read_camera(given: Properties) -> StageCamera:
+def read_camera(properties: Properties) -> StageCamera:
     """Read ``camera``; its angles are in degrees whatever the file's unit."""
     default = StageCamera()
-    columns, rows = given.numbers("resolution", "ff", default.resolution)
-    fov = given.numbers("fov", "dd", default.fov)
-    pan, tilt = given.numbers("pantilt", "dd", default.pantilt)
-    written = given.get("resolution")
+    columns, rows = properties.numbers("resolution", "ff", default.resolution)
+    fov = properties.numbers("fov", "dd", default.fov)
+    pan, tilt = properties.numbers("pantilt", "dd", default.pantilt)
+    written = properties.get("resolution")
     if written is not None and not (1 <= columns <= 10_000 and 1 <= rows <= 10_000):
         raise written.fail(f"'resolution' must be 1 to 10000 pixels, found {written.token.text}")
     return StageCamera(
         resolution=(int(columns), int(rows)),
-        range=_range(given, "range", default.range),
+        range=_range(properties, "range", default.range),
         fov=(fov[0], fov[1]),
         pantilt=(pan, tilt),
     )
 
 
-def read_blobfinder(given: Properties) -> StageBlobfinder:
+def read_blobfinder(properties: Properties) -> StageBlobfinder:
     """Read ``blobfinder``."""
     default = StageBlobfinder()
-    columns, rows = given.numbers("image", "ff", default.image)
+    columns, rows = properties.numbers("image", "ff", default.image)
     return StageBlobfinder(
-        colors=_blob_colors(given),
+        colors=_blob_colors(properties),
         image=(max(int(columns), 1), max(int(rows), 1)),
-        range=given.number("range", default.range),  # in metres, whatever the unit of lengths
-        fov=given.angle("fov", default.fov),
-        pan=given.angle("pan", default.pan),
+        range=properties.number("range", default.range),  # in metres, whatever the unit of lengths
+        fov=properties.angle("fov", default.fov),
+        pan=properties.angle("pan", default.pan),
     )
 
 
-def _blob_colors(given: Properties) -> tuple[Color, ...]:
-    count, written = given.whole("colors_count", 0, least=0), given.get("colors")
+def _blob_colors(properties: Properties) -> tuple[Color, ...]:
+    count, written = properties.whole("colors_count", 0, least=0), properties.get("colors")
     if written is None:
         return ()
     names = items_of(written, written.value)
     if len(names) != count:
-        given.reading.remark(
+        properties.reading.remark(
             f"'colors_count' is {count}, and 'colors' has {len(names)}", written.source
         )
     found = [color_of(str(name)) for name in names[:count]]
     if None in found:
-        given.reading.remark("'colors' names one that X11 has not", written.source)
+        properties.reading.remark("'colors' names one that X11 has not", written.source)
     return tuple(color for color in found if color is not None)
 
 
-def read_fiducial(given: Properties) -> StageFiducial:
+def read_fiducial(properties: Properties) -> StageFiducial:
     """Read ``fiducial``."""
     default = StageFiducial()
     return StageFiducial(
         range=(
-            given.length("range_min", default.range[0]),
-            given.length("range_max", default.range[1]),
+            properties.length("range_min", default.range[0]),
+            properties.length("range_max", default.range[1]),
         ),
-        range_id=given.length("range_max_id", default.range_id),
-        fov=given.angle("fov", default.fov),
-        ignore_height=given.flag("ignore_zloc", default=default.ignore_height),
+        range_id=properties.length("range_max_id", default.range_id),
+        fov=properties.angle("fov", default.fov),
+        ignore_height=properties.flag("ignore_zloc", default=default.ignore_height),
     )
 
 
-def read_bumper(given: Properties) -> StageBumper:
+def read_bumper(properties: Properties) -> StageBumper:
     """Read ``bumper``."""
-    count = given.whole("bcount", 0, least=0)
-    common = given.length("blength", 0.0)
-    given.matching("bpose["), given.matching("blength[")
+    count = properties.whole("bcount", 0, least=0)
+    common = properties.length("blength", 0.0)
+    properties.matching("bpose["), properties.matching("blength[")
     return StageBumper(
         tuple(
-            (quartet(given, f"bpose[{i}]", _ORIGIN), given.length(f"blength[{i}]", common))
+            (
+                quartet(properties, f"bpose[{i}]", _ORIGIN),
+                properties.length(f"blength[{i}]", common),
+            )
             for i in range(min(count, MAX_STRIPS))
         )
     )
 
 
-def read_gripper(given: Properties) -> StageGripper:
+def read_gripper(properties: Properties) -> StageGripper:
     """Read ``gripper``."""
     default = StageGripper()
-    x, y, z = given.numbers("paddle_size", "lll", default.paddle_size)
+    x, y, z = properties.numbers("paddle_size", "lll", default.paddle_size)
     paddles, lift = "open", "down"
-    written = given.get("paddle_state")
+    written = properties.get("paddle_state")
     if written is not None:
         items = items_of(written, written.value)
         first = items[0] if items else None
@@ -242,34 +247,34 @@ def read_gripper(given: Properties) -> StageGripper:
         paddle_size=(x, y, z),
         paddles="closed" if paddles == "closed" else "open",
         lift="up" if lift == "up" else "down",
-        autosnatch=given.flag("autosnatch", default=default.autosnatch),
+        autosnatch=properties.flag("autosnatch", default=default.autosnatch),
     )
 
 
-def read_actuator(given: Properties) -> StageActuator:
+def read_actuator(properties: Properties) -> StageActuator:
     """Read ``actuator``; its positions have no unit in Stage, so they are metres or radians."""
     default = StageActuator()
-    kind = given.choice("type", ("linear", "rotational"), default.type)
-    x, y, z = given.numbers("axis", "fff", default.axis)
+    kind = properties.choice("type", ("linear", "rotational"), default.type)
+    x, y, z = properties.numbers("axis", "fff", default.axis)
     return StageActuator(
         type="rotational" if kind == "rotational" else "linear",
         axis=(x, y, z),
         range=(
-            given.number("min_position", default.range[0]),
-            given.number("max_position", default.range[1]),
+            properties.number("min_position", default.range[0]),
+            properties.number("max_position", default.range[1]),
         ),
-        start=given.number("start_position", default.start),
-        max_speed=given.number("max_speed", default.max_speed),
+        start=properties.number("start_position", default.start),
+        max_speed=properties.number("max_speed", default.max_speed),
     )
 
 
-def read_blinkenlight(given: Properties) -> StageBlinkenlight:
+def read_blinkenlight(properties: Properties) -> StageBlinkenlight:
     """Read ``blinkenlight``."""
     default = StageBlinkenlight()
     return StageBlinkenlight(
-        period=given.number("period", default.period * 1000.0) / 1000.0,
-        duty_cycle=given.number("dutycycle", default.duty_cycle),
-        enabled=given.flag("enabled", default=default.enabled),
+        period=properties.number("period", default.period * 1000.0) / 1000.0,
+        duty_cycle=properties.number("dutycycle", default.duty_cycle),
+        enabled=properties.flag("enabled", default=default.enabled),
     )
 
 

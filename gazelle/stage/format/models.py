@@ -76,12 +76,12 @@ def read_model(entity: Entity, default_name: str, context: Context) -> StageMode
     prototype = context.prototypes.get(macro)
     if prototype is None:
         prototype = context.prototypes[macro] = _read_whole(macro, "", context)
-    given = Properties(entity, context.reading, context.units, own=True)
+    properties = Properties(entity, context.reading, context.units, own=True)
     return replace(
         prototype,
-        name=_name(given, prototype.name or default_name),
-        pose=given.pose("pose", prototype.pose),
-        color=_color(given, prototype.color),
+        name=_name(properties, prototype.name or default_name),
+        pose=properties.pose("pose", prototype.pose),
+        color=_color(properties, prototype.color),
         source=entity.source,
     )
 
@@ -90,10 +90,10 @@ def _read_whole(entity: Entity, default_name: str, context: Context) -> StageMod
     kind = KINDS.get(entity.type)
     if kind is None:
         raise _unknown(entity)
-    given = Properties(entity, context.reading, context.units)
-    size, origin = _extent(given, kind.size)
-    body = read_body(given, size, context, solid=kind.solid)
-    device = None if kind.read is None else kind.read(given)
+    properties = Properties(entity, context.reading, context.units)
+    size, origin = _extent(properties, kind.size)
+    body = read_body(properties, size, context, solid=kind.solid)
+    device = None if kind.read is None else kind.read(properties)
     if isinstance(device, StageGripper) and body.is_plain:
         body = gripper_body(device, size)
     parts = [part for part in entity.parts if not is_block(part) and part.type != "sensor"]
@@ -101,30 +101,30 @@ def _read_whole(entity: Entity, default_name: str, context: Context) -> StageMod
         _refuse_sensors(entity)
     model = StageModel(
         type="ranger" if entity.type == "laser" else entity.type,
-        name=_name(given, default_name),
-        pose=given.pose("pose"),
+        name=_name(properties, default_name),
+        pose=properties.pose("pose"),
         size=size,
         origin=origin,
         blocks=body.blocks,
         bitmap=body.bitmap,
-        boundary=given.flag("boundary", default=False),
-        color=_color(given, kind.color),
-        returns=_returns(given),
+        boundary=properties.flag("boundary", default=False),
+        color=_color(properties, kind.color),
+        returns=_returns(properties),
         device=device,
-        controllers=_controllers(given),
+        controllers=_controllers(properties),
         children=read_models(parts, context),
-        update_interval=_interval(given),
-        always_on=given.flag("alwayson", default=False),
-        stack_children=given.flag("stack_children", default=True),
-        mass=given.number("mass", 0.0),
-        friction=given.number("friction", 0.0),
-        map_resolution=given.length("map_resolution", 0.1),
-        gui=_gui(given),
-        power=_power(given),
+        update_interval=_interval(properties),
+        always_on=properties.flag("alwayson", default=False),
+        stack_children=properties.flag("stack_children", default=True),
+        mass=properties.number("mass", 0.0),
+        friction=properties.number("friction", 0.0),
+        map_resolution=properties.length("map_resolution", 0.1),
+        gui=_gui(properties),
+        power=_power(properties),
         source=entity.source,
     )
-    _old_words(given)
-    given.report_unknown()
+    _old_words(properties)
+    properties.report_unknown()
     return model
 
 
@@ -141,48 +141,48 @@ def _refuse_sensors(entity: Entity) -> None:
             raise part.fail(f"a sensor must stand in a ranger, not in a {entity.type}")
 
 
-def _name(given: Properties, default: str) -> str:
-    written = given.get("name")
-    name = given.text("name", default)
+def _name(properties: Properties, default: str) -> str:
+    written = properties.get("name")
+    name = properties.text("name", default)
     if written is not None and (not name.strip("/ ") or "::" in name):
         raise written.fail(f"'{name}' is no name for a model")
     return name
 
 
-def _extent(given: Properties, size: StageSize) -> tuple[StageSize, StagePose]:
+def _extent(properties: Properties, size: StageSize) -> tuple[StageSize, StagePose]:
     """Return ``size`` and ``origin``, or what Stage 2 called them."""
-    old_size, old_origin = given.get("size3"), given.get("origin3")
+    old_size, old_origin = properties.get("size3"), properties.get("origin3")
     for name, new in (("size3", "size"), ("origin3", "origin")):
-        given.note(name, f"'{name}' is of Stage 2; it is read as '{new}'", f"write {new}")
+        properties.note(name, f"'{name}' is of Stage 2; it is read as '{new}'", f"write {new}")
     origin = StagePose()
     if old_size is not None:
-        size = given.size("size3", size)
+        size = properties.size("size3", size)
     if old_origin is not None:
-        x, y, yaw = given.numbers("origin3", "lla", (0.0, 0.0, 0.0))
+        x, y, yaw = properties.numbers("origin3", "lla", (0.0, 0.0, 0.0))
         origin = StagePose(x, y, 0.0, yaw)
-    return given.size("size", size), given.pose("origin", origin)
+    return properties.size("size", size), properties.pose("origin", origin)
 
 
-def _color(given: Properties, default: StageColor) -> StageColor:
-    color = given.color()
+def _color(properties: Properties, default: StageColor) -> StageColor:
+    color = properties.color()
     return default if color is None else color
 
 
-def _returns(given: Properties) -> StageReturns:
+def _returns(properties: Properties) -> StageReturns:
     default = StageReturns()
     return StageReturns(
-        obstacle=given.flag("obstacle_return", default=default.obstacle),
-        ranger=given.number("ranger_return", default.ranger),
-        fiducial=given.whole("fiducial_return", default.fiducial),
-        fiducial_key=given.whole("fiducial_key", default.fiducial_key),
-        blob=given.flag("blob_return", default=default.blob),
-        gripper=given.flag("gripper_return", default=default.gripper),
+        obstacle=properties.flag("obstacle_return", default=default.obstacle),
+        ranger=properties.number("ranger_return", default.ranger),
+        fiducial=properties.whole("fiducial_return", default.fiducial),
+        fiducial_key=properties.whole("fiducial_key", default.fiducial_key),
+        blob=properties.flag("blob_return", default=default.blob),
+        gripper=properties.flag("gripper_return", default=default.gripper),
     )
 
 
-def _controllers(given: Properties) -> tuple[StageController, ...]:
+def _controllers(properties: Properties) -> tuple[StageController, ...]:
     """Return ``ctrl "NAME ARGUMENTS"``, or a tuple of such strings."""
-    written = given.get("ctrl")
+    written = properties.get("ctrl")
     if written is None:
         return ()
     value = written.value
@@ -193,58 +193,60 @@ def _controllers(given: Properties) -> tuple[StageController, ...]:
         if not words:
             raise written.fail(f"'ctrl' must name a controller, found {written.token.text}")
         found.append(StageController(words[0], words[1] if len(words) > 1 else ""))
-        _note_foreign(words[0], written, given)
+        _note_foreign(words[0], written, properties)
     return tuple(found)
 
 
-def _note_foreign(name: str, written: Property, given: Properties) -> None:
+def _note_foreign(name: str, written: Property, properties: Properties) -> None:
     if name not in known_controllers:
-        given.reading.remark(
+        properties.reading.remark(
             f"the controller '{name}' is a program for Stage itself, and not started",
             written.source,
             f"there are: {', '.join(sorted(known_controllers))}; others drive it from Python or ROS",
         )
 
 
-def _interval(given: Properties) -> float:
-    milliseconds = given.number("update_interval", 100.0)
-    written = given.get("update_interval")
+def _interval(properties: Properties) -> float:
+    milliseconds = properties.number("update_interval", 100.0)
+    written = properties.get("update_interval")
     if written is not None and not 0.0 <= milliseconds <= 1000.0 * _MAX_INTERVAL:
         raise written.fail(f"'update_interval' is out of all bounds: {milliseconds:g} ms")
     return milliseconds / 1000.0
 
 
-def _gui(given: Properties) -> StageGui:
+def _gui(properties: Properties) -> StageGui:
     default = StageGui()
     return StageGui(
-        nose=given.flag("gui_nose", default=default.nose),
-        grid=given.flag("gui_grid", default=default.grid),
-        outline=given.flag("gui_outline", default=default.outline),
-        move=given.flag("gui_move", default=default.move),
-        trail_length=given.whole("trail_length", default.trail_length),
-        trail_interval=given.whole("trail_interval", default.trail_interval),
-        say=given.text("say", default.say),
+        nose=properties.flag("gui_nose", default=default.nose),
+        grid=properties.flag("gui_grid", default=default.grid),
+        outline=properties.flag("gui_outline", default=default.outline),
+        move=properties.flag("gui_move", default=default.move),
+        trail_length=properties.whole("trail_length", default.trail_length),
+        trail_interval=properties.whole("trail_interval", default.trail_interval),
+        say=properties.text("say", default.say),
     )
 
 
-def _power(given: Properties) -> StagePower:
+def _power(properties: Properties) -> StagePower:
     def joules(name: str) -> float | None:
-        if given.has(f"k{name}"):
-            return 1000.0 * given.number(f"k{name}", 0.0)
-        return given.number(name, 0.0) if given.has(name) else None
+        if properties.has(f"k{name}"):
+            return 1000.0 * properties.number(f"k{name}", 0.0)
+        return properties.number(name, 0.0) if properties.has(name) else None
 
     stored, capacity = joules("joules"), joules("joules_capacity")
     return StagePower(
-        watts=given.number("watts", 0.0),
-        give_watts=given.number("give_watts", 0.0),
-        take_watts=given.number("take_watts", 0.0),
+        watts=properties.number("watts", 0.0),
+        give_watts=properties.number("give_watts", 0.0),
+        take_watts=properties.number("take_watts", 0.0),
         joules=stored,
         capacity=capacity,
     )
 
 
-def _old_words(given: Properties) -> None:
+def _old_words(properties: Properties) -> None:
     """Warn of words that Stage 4 ignores, or that only matter inside of Stage."""
     for name in ("debug", "event_queue"):
-        given.get(name)
-    given.note("laser_return", "'laser_return' is of Stage 3, and ignored", "say 'ranger_return'")
+        properties.get(name)
+    properties.note(
+        "laser_return", "'laser_return' is of Stage 3, and ignored", "say 'ranger_return'"
+    )

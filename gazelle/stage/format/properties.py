@@ -73,17 +73,17 @@ class Properties:
 
     def number(self, name: str, default: float, code: str = "f") -> float:
         """Return a number; ``code`` is that of its unit, see ``Units``."""
-        given = self.get(name)
-        return default if given is None else _number(given, given.value) * self.units.factor(code)
+        entry = self.get(name)
+        return default if entry is None else _number(entry, entry.value) * self.units.factor(code)
 
     def length(self, name: str, default: float) -> float:
         """Return a length [m]; not negative."""
-        given = self.get(name)
-        if given is None:
+        entry = self.get(name)
+        if entry is None:
             return default
         value = self.number(name, default, "l")
         if value < 0.0:
-            raise given.fail(f"'{name}' must not be negative, found {value:g}")
+            raise entry.fail(f"'{name}' must not be negative, found {value:g}")
         return value
 
     def angle(self, name: str, default: float) -> float:
@@ -92,12 +92,12 @@ class Properties:
 
     def whole(self, name: str, default: int, least: int | None = None) -> int:
         """Return an int; a fraction is cut off, as in Stage."""
-        given = self.get(name)
-        if given is None:
+        entry = self.get(name)
+        if entry is None:
             return default
-        value = int(_number(given, given.value))
+        value = int(_number(entry, entry.value))
         if least is not None and value < least:
-            raise given.fail(f"'{name}' must be at least {least}, found {value}")
+            raise entry.fail(f"'{name}' must be at least {least}, found {value}")
         return value
 
     def flag(self, name: str, *, default: bool) -> bool:
@@ -106,20 +106,20 @@ class Properties:
 
     def text(self, name: str, default: str = "") -> str:
         """Return a string."""
-        given = self.get(name)
-        if given is None:
+        entry = self.get(name)
+        if entry is None:
             return default
-        value = given.value
+        value = entry.value
         if not isinstance(value, str):
-            raise given.fail(f"'{name}' must be a string in quotes, found {given.token.text}")
+            raise entry.fail(f"'{name}' must be a string in quotes, found {entry.token.text}")
         return value
 
     def choice(self, name: str, options: tuple[str, ...], default: str) -> str:
         """Return one of some strings."""
         value = self.text(name, default)
-        given = self.get(name)
-        if value not in options and given is not None:
-            raise given.fail(f"'{name}' cannot be '{value}'", did_you_mean(value, options))
+        entry = self.get(name)
+        if value not in options and entry is not None:
+            raise entry.fail(f"'{name}' cannot be '{value}'", did_you_mean(value, options))
         return value
 
     def numbers(self, name: str, codes: str, default: tuple[float, ...]) -> tuple[float, ...]:
@@ -128,17 +128,17 @@ class Properties:
         Raises:
             FormatError: It is shorter, or holds something else.
         """
-        given = self.get(name)
-        if given is None:
+        entry = self.get(name)
+        if entry is None:
             return default
-        items = items_of(given, given.value)
+        items = items_of(entry, entry.value)
         if len(items) < len(codes):
-            raise given.fail(
-                f"'{name}' must have {len(codes)} numbers, found {given.token.text}",
+            raise entry.fail(
+                f"'{name}' must have {len(codes)} numbers, found {entry.token.text}",
                 hint="Stage 4 stops at this too",
             )
         return tuple(
-            _number(given, item) * self.units.factor(code)
+            _number(entry, item) * self.units.factor(code)
             for item, code in zip(items, codes, strict=False)
         )
 
@@ -149,9 +149,9 @@ class Properties:
     def size(self, name: str, default: StageSize) -> StageSize:
         """Return three lengths, none negative."""
         values = self.numbers(name, "lll", default)
-        given = self.get(name)
-        if given is not None and min(values) < 0.0:
-            raise given.fail(f"'{name}' must not be negative, found {given.token.text}")
+        entry = self.get(name)
+        if entry is not None and min(values) < 0.0:
+            raise entry.fail(f"'{name}' must not be negative, found {entry.token.text}")
         return StageSize(*values)
 
     def color(self) -> StageColor | None:
@@ -174,17 +174,17 @@ class Properties:
 
     def note(self, name: str, message: str, hint: str | None = None) -> None:
         """Warn of a property if it is present."""
-        given = self.get(name)
-        if given is not None:
-            self.reading.remark(message, given.source, hint)
+        entry = self.get(name)
+        if entry is not None:
+            self.reading.remark(message, entry.source, hint)
 
     def report_unknown(self) -> None:
         """Warn of each property that was never read."""
-        for name, given in self._all.items():
+        for name, entry in self._all.items():
             if name not in self._known:
                 self.reading.remark(
                     f"'{name}' is no property of a {self.entity.type}, and ignored",
-                    given.source,
+                    entry.source,
                     _suggestion(name, self._known),
                 )
 
@@ -194,20 +194,20 @@ def _suggestion(name: str, known: set[str]) -> str | None:
     return hint if hint.startswith("did you") else None
 
 
-def items_of(given: Property, value: Value) -> tuple[float | str, ...]:
+def items_of(entry: Property, value: Value) -> tuple[float | str, ...]:
     """Return the items of a tuple.
 
     Raises:
         FormatError: It is none.
     """
     if not isinstance(value, tuple):
-        raise given.fail(f"'{given.name}' must be a tuple in brackets, found {given.token.text}")
+        raise entry.fail(f"'{entry.name}' must be a tuple in brackets, found {entry.token.text}")
     return value
 
 
-def _number(given: Property, value: Value) -> float:
+def _number(entry: Property, value: Value) -> float:
     if not isinstance(value, float):
-        raise given.fail(f"expected a number in '{given.name}', found {given.token.text}")
+        raise entry.fail(f"expected a number in '{entry.name}', found {entry.token.text}")
     if not abs(value) <= MAX_NUMBER:
-        raise given.fail(f"'{given.name}' is out of all bounds: {value:g}")
+        raise entry.fail(f"'{entry.name}' is out of all bounds: {value:g}")
     return value

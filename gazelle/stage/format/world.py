@@ -38,33 +38,33 @@ def read_world(script: Script, reading: Reading, folder: Path | None) -> StageWo
         ResolveError: A file that it includes or a picture is not there.
     """
     root, macros = parse(script, reading, folder)
-    given = Properties(root, reading, Units())
-    given.units.length = LENGTHS[given.choice("unit_length", tuple(LENGTHS), "m")]
-    given.units.angle = ANGLES[given.choice("unit_angle", tuple(ANGLES), "degrees")]
-    context = Context(reading, given.units, folder, BitmapCells())
+    properties = Properties(root, reading, Units())
+    properties.units.length = LENGTHS[properties.choice("unit_length", tuple(LENGTHS), "m")]
+    properties.units.angle = ANGLES[properties.choice("unit_angle", tuple(ANGLES), "degrees")]
+    context = Context(reading, properties.units, folder, BitmapCells())
     windows = [part for part in root.children if part.type == "window"]
     models = [part for part in root.children if part.type != "window"]
     world = StageWorld(
-        name=given.text("name", Path(script.name).stem) or "default",
+        name=properties.text("name", Path(script.name).stem) or "default",
         models=read_models(models, context, on_ground=True),
-        interval_sim=_interval(given),
-        resolution=_resolution(given),
-        quit_time=given.number("quit_time", 0.0),
-        speedup=given.number("speedup", 1.0),
-        paused=given.flag("paused", default=False),
-        threads=given.whole("threads", 1, least=0),
-        show_clock=given.flag("show_clock", default=False),
-        show_clock_interval=given.whole("show_clock_interval", 100),
-        confirm_on_quit=given.flag("confirm_on_quit", default=True),
-        window=read_window(windows[-1], given) if windows else None,
+        interval_sim=_interval(properties),
+        resolution=_resolution(properties),
+        quit_time=properties.number("quit_time", 0.0),
+        speedup=properties.number("speedup", 1.0),
+        paused=properties.flag("paused", default=False),
+        threads=properties.whole("threads", 1, least=0),
+        show_clock=properties.flag("show_clock", default=False),
+        show_clock_interval=properties.whole("show_clock_interval", 100),
+        confirm_on_quit=properties.flag("confirm_on_quit", default=True),
+        window=read_window(windows[-1], properties) if windows else None,
         source=script.source(0, "world"),
     )
     if not models:
         _try_macros(macros, context)
-    given.get("test")
+    properties.get("test")
     for name, hint in _IGNORED:
-        given.note(name, f"'{name}' means nothing to Stage 4, and is ignored", hint)
-    given.report_unknown()
+        properties.note(name, f"'{name}' means nothing to Stage 4, and is ignored", hint)
+    properties.report_unknown()
     return world
 
 
@@ -82,17 +82,17 @@ def _try_macros(macros: dict[str, Entity], context: Context) -> None:
             )
 
 
-def _interval(given: Properties) -> float:
-    milliseconds = given.number("interval_sim", 100.0)
-    written = given.get("interval_sim")
+def _interval(properties: Properties) -> float:
+    milliseconds = properties.number("interval_sim", 100.0)
+    written = properties.get("interval_sim")
     if written is not None and not 1e-3 <= milliseconds <= 1e6:
         raise written.fail(f"'interval_sim' must be a time in ms, found {milliseconds:g}")
     return milliseconds / 1000.0
 
 
-def _resolution(given: Properties) -> float:
-    value = given.number("resolution", 0.02)
-    written = given.get("resolution")
+def _resolution(properties: Properties) -> float:
+    value = properties.number("resolution", 0.02)
+    written = properties.get("resolution")
     if written is not None and not 1e-4 <= value <= 1e3:
         raise written.fail(f"'resolution' must be a length in m, found {value:g}")
     return value
@@ -104,17 +104,17 @@ def read_window(entity: Entity, world: Properties) -> StageWindow:
     Raises:
         FormatError: One of those with a field is of the wrong type.
     """
-    given = Properties(entity, world.reading, Units())
+    properties = Properties(entity, world.reading, Units())
     default = StageWindow()
-    width, height = given.numbers("size", "ff", default.size)
-    x, y = given.numbers("center", "ff", default.center)
-    tilt, turn = given.numbers("rotate", "ff", default.rotate)
+    width, height = properties.numbers("size", "ff", default.size)
+    x, y = properties.numbers("center", "ff", default.center)
+    tilt, turn = properties.numbers("rotate", "ff", default.rotate)
     fields = {"size", "center", "rotate", "scale"}
     return StageWindow(
         size=(width, height),
         center=(x, y),
         rotate=(tilt, turn),
-        scale=given.number("scale", default.scale),
+        scale=properties.number("scale", default.scale),
         settings=tuple(
             (name, each.value) for name, each in entity.properties.items() if name not in fields
         ),
