@@ -26,7 +26,7 @@ _FEW = 8  # curves of one field
 _NOTHING = "none"
 
 
-class _Field:
+class _PlottedField:
     """A field of a topic, and its numbers over time."""
 
     def __init__(self, context: GraphContext, text: str, topic: str, kind: str) -> None:
@@ -78,7 +78,7 @@ class PlotPanel(GraphPanel):
 
     def __init__(self, context: GraphContext) -> None:
         super().__init__(context)
-        self._fields: dict[str, _Field] = {}
+        self._fields: dict[str, _PlottedField] = {}
         self._waiting: list[str] = []
         self._chart: Any = None
         self._curves: tuple[str, ...] = ()
@@ -124,7 +124,7 @@ class PlotPanel(GraphPanel):
         types = dict(self.context.node.master.topic_types())
         topic = topic_of(text, list(types))
         if text not in self._fields:
-            self._fields[text] = _Field(self.context, text, topic, types[topic])
+            self._fields[text] = _PlottedField(self.context, text, topic, types[topic])
             self._offer()
 
     def refresh(self) -> None:
