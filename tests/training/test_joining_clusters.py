@@ -7,9 +7,9 @@ import subprocess
 import sys
 import time
 import types
-from pathlib import Path
 
 import pytest
+from processes import is_running
 
 from gazelle.errors import TaskError
 from gazelle.training.workers.clusters import connect
@@ -18,7 +18,7 @@ from gazelle_ros.base.interrupts import Interrupted, interruptible
 
 
 @pytest.fixture
-def joined(monkeypatch):
+def joined(monkeypatch, tmp_path):
     """Yield the keywords of ``ray.init``, which takes SIGTERM for itself."""
     keywords = {}
 
@@ -27,7 +27,10 @@ def joined(monkeypatch):
         signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(number))
 
     ray = types.SimpleNamespace(
-        init=init, is_initialized=lambda: False, cluster_resources=lambda: {"CPU": 2.0}
+        init=init,
+        is_initialized=lambda: False,
+        cluster_resources=lambda: {"CPU": 2.0},
+        __file__=str(tmp_path / "ray" / "__init__.py"),
     )
     monkeypatch.setitem(sys.modules, "ray", ray)
     before = signal.getsignal(signal.SIGTERM)
@@ -66,18 +69,24 @@ def test_a_cluster_of_this_machine_is_reached_by_nobody_else(joined):
 
 
 @pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGINT])
-def test_an_interrupted_start_leaves_no_process(joined, monkeypatch, how):
+def test_an_interrupted_start_leaves_no_process_of_its_own(joined, monkeypatch, tmp_path, how):
     began = []
-    tree = "import subprocess as s; s.Popen(['sleep', '100']); print(flush=True); s.os.wait()"
-    other = subprocess.Popen(["sleep", "100"])
+    tree = tmp_path / "ray" / "raylet.py"
+    tree.parent.mkdir()
+    tree.write_text(
+        "import subprocess as s; s.Popen(['sleep', '100']); print(flush=True); s.os.wait()"
+    )
+    others = [subprocess.Popen(["sleep", "100"])]
     before = set(descendants())
     take_sigterm = sys.modules["ray"].init
 
     def init(**keywords):
         take_sigterm()
-        began.append(subprocess.Popen([sys.executable, "-c", tree], stdout=subprocess.PIPE))
+        began.append(subprocess.Popen([sys.executable, tree], stdout=subprocess.PIPE))
         began[0].stdout.readline()
         began.extend(set(descendants()) - before - {began[0].pid})
+        # As another thread may, which knows nothing of Ray.
+        others.append(subprocess.Popen(["sleep", "100"]))
         signal.raise_signal(how)
 
     monkeypatch.setattr(sys.modules["ray"], "init", init)
@@ -85,14 +94,11 @@ def test_an_interrupted_start_leaves_no_process(joined, monkeypatch, how):
         connect("local")
     assert caught.value.signal == how
     assert began[0].wait(10) == -signal.SIGKILL
-    assert other.poll() is None
-    other.kill()
-    other.wait()
+    assert [other.poll() for other in others] == [None, None]
+    for other in others:
+        other.kill()
+        other.wait()
     began[0].stdout.close()
     assert len(began) == 2
-    while Path(f"/proc/{began[1]}/stat").exists() and not is_zombie(began[1]):
+    while is_running(began[1]):
         time.sleep(0.01)
-
-
-def is_zombie(process):
-    return "State:\tZ" in Path(f"/proc/{process}/status").read_text()

@@ -6,18 +6,21 @@ import contextlib
 import os
 import signal
 import threading
+import time
 from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
 from typing import Any
 
 from gazelle.errors import MissingExtraError, TaskError
 from gazelle.native.processors import VARIABLE
 from gazelle.training.workers.shards import Blueprint, ShardHost
 from gazelle.training.workers.team import WorkerLink, WorkerLostError
-from gazelle_ros.base.child_processes import descendants
+from gazelle_ros.base.child_processes import command_line, descendants
 from gazelle_ros.base.interrupts import Interrupted, holding
 
 LOCAL = "local"
 """The address of a cluster that is started on this machine and ends with the program."""
+_FORKING_S = 0.5
 _HINT = "'ray start --head' starts a cluster; --ray without an address uses this machine"
 
 
@@ -88,7 +91,7 @@ def connect(address: str) -> int:
         alone = {"include_dashboard": False, "_node_ip_address": "127.0.0.1"}
     try:
         if not ray.is_initialized():
-            with _ended_if_interrupted(), _sigterm_handler_kept():
+            with _ended_if_interrupted(Path(ray.__file__).parent), _sigterm_handler_kept():
                 ray.init(address=address, log_to_driver=True, logging_level="ERROR", **alone)
     except (ConnectionError, ValueError) as error:
         raise TaskError(f"no Ray cluster at {address}: {error}", hint=_HINT) from error
@@ -107,24 +110,42 @@ def _sigterm_handler_kept() -> Iterator[None]:
 
 
 @contextlib.contextmanager
-def _ended_if_interrupted() -> Iterator[None]:
+def _ended_if_interrupted(package: Path) -> Iterator[None]:
     """End the processes that an interrupted start of Ray leaves; Ray forgets them.
+
+    Args:
+        package: Folder of Ray's files.
 
     Raises:
         Interrupted: SIGTERM came, which Ray's handler turns into an exit with another code.
     """
-    before = descendants()
+    before = set(descendants())
     try:
         yield
     except BaseException as error:
         with holding():
-            for process in descendants():
-                if process not in before:
-                    with contextlib.suppress(ProcessLookupError):
-                        os.kill(process, signal.SIGKILL)
+            for process in _started_from(package, before):
+                with contextlib.suppress(ProcessLookupError):
+                    os.kill(process, signal.SIGKILL)
         if isinstance(error, SystemExit):
             raise Interrupted(signal.SIGTERM) from error
         raise
+
+
+def _started_from(package: Path, before: set[int]) -> list[int]:
+    """Return new processes that run a folder's files, and what these started.
+
+    Other threads may have started programs meanwhile.
+    """
+    deadline, here = time.monotonic() + _FORKING_S, command_line(os.getpid())
+    while True:
+        commands = {each: command_line(each) for each in descendants() if each not in before}
+        # A child has its parent's command until it executes its own.
+        if here not in commands.values() or time.monotonic() > deadline:
+            break
+        time.sleep(0.01)
+    roots = [process for process, words in commands.items() if f"{package}{os.sep}" in words]
+    return [*roots, *(each for root in roots for each in descendants(root))]
 
 
 def connected() -> Any:

@@ -6,9 +6,9 @@ import signal
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 import pytest
+from processes import is_running
 from ros.graph import until
 
 from gazelle_ros.launch.packages import Packages
@@ -224,7 +224,7 @@ time.sleep(60)
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_no_node_is_left_when_the_script_is_ended(package, master, tmp_path, number):
     pid = node_of_ended_script(master, tmp_path, number)
-    until(lambda: not alive(pid))
+    until(lambda: not is_running(pid))
 
 
 @pytest.mark.long
@@ -232,7 +232,7 @@ def test_the_node_of_a_killed_script_is_left_as_in_ros(package, master, tmp_path
     pid = node_of_ended_script(master, tmp_path, signal.SIGKILL)
     try:
         time.sleep(0.5)
-        assert alive(pid)
+        assert is_running(pid)
     finally:
         os.kill(pid, signal.SIGKILL)
 
@@ -254,14 +254,6 @@ def node_of_ended_script(master, tmp_path, number):
         process.send_signal(number)
         process.wait(60)
     return pid
-
-
-def alive(pid):
-    try:
-        stat = Path(f"/proc/{pid}/stat").read_text()
-    except (FileNotFoundError, ProcessLookupError):
-        return False
-    return stat.rpartition(")")[2].split()[0] != "Z"
 
 
 def test_packages_are_found(package):

@@ -14,6 +14,7 @@ from pathlib import Path
 
 import pytest
 from ports import free_port
+from processes import is_running
 from ros.graph import until
 from whole import needs_gazelle
 
@@ -74,13 +75,6 @@ def comm(pid):
     return ""
 
 
-def gone(pid):
-    try:
-        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] == "Z"
-    except OSError:
-        return True
-
-
 @pytest.fixture
 def free_uri():
     return f"http://127.0.0.1:{free_port()}/"
@@ -137,7 +131,7 @@ def test_nothing_is_left_behind(begun, number):
     family = begun
     family.process.send_signal(number)
     assert family.process.wait(60) == 0
-    assert all(gone(pid) for pid in family.children.values())
+    assert all(not is_running(pid) for pid in family.children.values())
     assert "Traceback" not in family.out.read_text()
     assert family.out.read_text().endswith("done\n")
 
@@ -150,7 +144,7 @@ def test_nothing_is_left_behind_of_a_launch_that_just_begins(start, file, second
     family._look()
     family.process.send_signal(signal.SIGTERM)
     family.process.wait(60)
-    assert all(gone(pid) for pid in family.children.values())
+    assert all(not is_running(pid) for pid in family.children.values())
     assert family.answers() is None
     assert "Traceback" not in family.out.read_text()
 
@@ -161,9 +155,9 @@ def test_the_master_survives_its_launcher(begun):
     family.process.kill()
     family.process.wait()
     if "sleep" in family.children:
-        until(lambda: gone(family.children["sleep"]))
+        until(lambda: not is_running(family.children["sleep"]))
     assert family.answers() == before
-    assert not gone(family.children["rosout"])
+    assert is_running(family.children["rosout"])
     until(lambda: family.master.system_state()[0].get("/rosout_agg") == ["/rosout"])
 
 
@@ -176,8 +170,8 @@ def test_nodes_survive_a_killed_roslaunch_as_with_ros(start, file):
     family.process.kill()
     family.process.wait()
     time.sleep(2.0)
-    assert not gone(family.children["sleep"])
-    assert not gone(family.children["rosout"])
+    assert is_running(family.children["sleep"])
+    assert is_running(family.children["rosout"])
     assert family.answers() == before
 
 
@@ -215,7 +209,7 @@ def test_the_launch_ends_with_its_master(begun):
     family = begun
     os.kill(family.children["rosmaster"], signal.SIGKILL)
     assert family.process.wait(60) == 1
-    assert all(gone(pid) for pid in family.children.values())
+    assert all(not is_running(pid) for pid in family.children.values())
     assert "REQUIRED process [master]" in family.out.read_text()
 
 
@@ -223,7 +217,7 @@ def test_the_launch_ends_when_the_master_is_asked_to(begun):
     family = begun
     family.master.call("shutdown", "a test asks")
     assert family.process.wait(60) == 0
-    assert all(gone(pid) for pid in family.children.values())
+    assert all(not is_running(pid) for pid in family.children.values())
 
 
 def test_rosout_comes_again(begun):

@@ -8,10 +8,10 @@ import subprocess
 import sys
 import threading
 import time
-from pathlib import Path
 
 import pytest
 from ports import free_port
+from processes import is_running
 from ros.graph import until
 
 from gazelle_ros import Master
@@ -75,21 +75,6 @@ def spin(running, seconds=120.0):
 def node(kind, name="n", **attributes):
     extra = "".join(f' {key.replace("__", "-")}="{each}"' for key, each in attributes.items())
     return f'<node pkg="robot" type="{kind}" name="{name}"{extra}/>'
-
-
-def alive(pid):
-    try:
-        os.kill(pid, 0)
-    except ProcessLookupError:
-        return False
-    return True
-
-
-def gone(pid):
-    try:
-        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] == "Z"
-    except OSError:
-        return True
 
 
 def test_parameters_are_cleared_and_set(launch, master):
@@ -219,7 +204,7 @@ def test_a_required_node_ends_the_launch(launch, script):
     running = launch(node("sleep.sh", "s") + node("die.sh", "r", required="true"))
     assert spin(running) == 1
     running.close()
-    assert not alive(running.processes[0].pid)
+    assert not is_running(running.processes[0].pid)
     assert any("exit code 2" in text for text in running.said)
 
 
@@ -230,8 +215,8 @@ def test_all_are_ended_with_all_they_started(launch, script, tmp_path):
     until(lambda: (tmp_path / "child").exists() and (tmp_path / "child").read_text().strip())
     child = int((tmp_path / "child").read_text())
     running.close()
-    assert not alive(running.processes[0].pid)
-    until(lambda: gone(child))
+    assert not is_running(running.processes[0].pid)
+    until(lambda: not is_running(child))
 
 
 @pytest.mark.long
@@ -245,7 +230,7 @@ def test_the_stubborn_are_killed(launch, script, tmp_path):
     begin = time.monotonic()
     running.close()
     assert time.monotonic() - begin > 0.5
-    assert not alive(running.processes[0].pid)
+    assert not is_running(running.processes[0].pid)
     assert any("did not end on SIGINT" in text for text in running.said)
 
 
@@ -382,4 +367,4 @@ def test_no_node_is_left_however_the_command_ends(workspace, script, tmp_path, m
         process.send_signal(number)
         process.wait(60)
     pid = int((tmp_path / "pid").read_text())
-    until(lambda: gone(pid))
+    until(lambda: not is_running(pid))

@@ -58,17 +58,24 @@ def child_process(command: Sequence[str], **options: Any) -> Iterator[subprocess
                 process.kill()
 
 
-def descendants() -> list[int]:
-    """Return the processes that this one started, and those that they did, parents first.
+def descendants(process: int | None = None) -> list[int]:
+    """Return the processes that one started, this one if None, and those that they did.
 
-    None without ``/proc``.
+    Parents come first. None without ``/proc``.
     """
     children: dict[int, list[int]] = {}
     for stat in Path("/proc").glob("[0-9]*/stat"):
         with contextlib.suppress(OSError):  # it has ended
             parent = stat.read_text(errors="replace").rpartition(")")[2].split()[1]
             children.setdefault(int(parent), []).append(int(stat.parent.name))
-    found = [os.getpid()]
-    for process in found:
-        found += children.get(process, [])
+    found = [os.getpid() if process is None else process]
+    for parent_id in found:
+        found += children.get(parent_id, [])
     return found[1:]
+
+
+def command_line(process: int) -> str:
+    """Return the words of a process's command, a null after each; empty for one that has ended."""
+    with contextlib.suppress(OSError):
+        return Path(f"/proc/{process}/cmdline").read_text(errors="replace")
+    return ""
