@@ -95,12 +95,12 @@ def world_indices(worlds: Any, nworld: int, error: type[Error]) -> Worlds:
     return indices("worlds", worlds, nworld, error)
 
 
-def indices(what: str, given: Any, count: int, error: type[Error]) -> Indices:
+def indices(what: str, selection: Any, count: int, error: type[Error]) -> Indices:
     """Return indices of things, shape (n,).
 
     Args:
         what: They are, for the message.
-        given: By a user.
+        selection: By a user.
         count: There are so many.
         error: Class of the error.
 
@@ -109,11 +109,11 @@ def indices(what: str, given: Any, count: int, error: type[Error]) -> Indices:
     """
     rows: NDArray[Any] = np.zeros((0, 0))
     with contextlib.suppress(ValueError):  # of rows of different lengths
-        rows = np.asarray(given)
+        rows = np.asarray(selection)
     if rows.ndim != 1 or (rows.size and rows.dtype.kind not in "iu"):
-        raise error(f"{what} must be ints, not {given!r:.60}")
+        raise error(f"{what} must be ints, not {selection!r:.60}")
     if rows.size and not 0 <= rows.min() <= rows.max() < count:
-        raise error(f"{what} must be from 0 to {count - 1}, not {given!r:.60}")
+        raise error(f"{what} must be from 0 to {count - 1}, not {selection!r:.60}")
     return rows.astype(np.intp, copy=False)
 
 

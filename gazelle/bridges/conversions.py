@@ -127,9 +127,9 @@ def pose_of_message(message: geometry_msgs.msg.Pose) -> Pose:
     return Pose.from_quaternion(point(message.position), quaternion(message.orientation))
 
 
-def pose_of_transform(found: StampedTransform) -> Pose:
+def pose_of_transform(transform: StampedTransform) -> Pose:
     """Return a transform as the pose of its child."""
-    return Pose.from_quaternion(found.translation, found.rotation)
+    return Pose.from_quaternion(transform.translation, transform.rotation)
 
 
 def pose_message(pose: Pose) -> geometry_msgs.msg.Pose:

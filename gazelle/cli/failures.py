@@ -26,7 +26,7 @@ def failures_file(text: str) -> Path:
     return file
 
 
-def save_failures(found: Evaluation, file: Path) -> None:
+def save_failures(evaluation: Evaluation, file: Path) -> None:
     """Write the episodes that failed.
 
     Raises:
@@ -37,11 +37,11 @@ def save_failures(found: Evaluation, file: Path) -> None:
         from gazelle.viewer.failures import draw_failures
         from gazelle.viewer.film_files import write_picture
 
-        write_picture(file, draw_failures(found))
+        write_picture(file, draw_failures(evaluation))
         return
-    rows = [record.to_row() for record in found.failures]
+    rows = [record.to_row() for record in evaluation.failures]
     if file.suffix.lower() == ".json":
-        about = found.to_dict() | {"goals": _by_goal(found), "failures": rows}
+        about = evaluation.to_dict() | {"goals": _by_goal(evaluation), "failures": rows}
         write_text(file, json.dumps(about, indent=2) + "\n")
         return
     columns = list(dict.fromkeys(name for row in rows for name in row))

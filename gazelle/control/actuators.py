@@ -39,7 +39,7 @@ class ActuatorDrive:
     law: LinearTransmission
 
 
-def drive_of(given: Transmission) -> ActuatorDrive:
+def drive_of(transmission: Transmission) -> ActuatorDrive:
     """Return the drive of a ``<transmission>``, with its reductions and offsets.
 
     Where there are roles (``joint1``, ``actuator2``), they say which joint and which actuator is which,
@@ -49,25 +49,27 @@ def drive_of(given: Transmission) -> ActuatorDrive:
         ControlError: Its type is not known, it has too many or too few joints or actuators, roles
             that cannot be, or a reduction of zero.
     """
-    kind = given.type.removeprefix(_PREFIX)
+    kind = transmission.type.removeprefix(_PREFIX)
     width = _WIDTHS.get(kind)
     if width is None:
         raise ControlError(
-            f"transmission '{given.name}' is of the type '{given.type}', which is not known",
-            source=given.source,
+            f"transmission '{transmission.name}' is of the type '{transmission.type}', which is not known",
+            source=transmission.source,
             hint=did_you_mean(_PREFIX + kind, [_PREFIX + each for each in _WIDTHS]),
         )
-    if len(given.joints) != width or len(given.actuators) != width:
+    if len(transmission.joints) != width or len(transmission.actuators) != width:
         raise ControlError(
-            f"transmission '{given.name}' has {len(given.joints)} joints and {len(given.actuators)} "
+            f"transmission '{transmission.name}' has {len(transmission.joints)} joints and {len(transmission.actuators)} "
             f"actuators; a {kind} has {width} of each",
-            source=given.source,
+            source=transmission.source,
         )
-    joints = _order(given, given.joint_roles, "joint", width)
-    motors = _order(given, given.actuator_roles, "actuator", width)
-    reductions = [given.actuators[i][1] for i in motors]
-    offsets = [given.offsets[i] if given.offsets else 0.0 for i in joints]
-    own = [given.joint_reductions[i] if given.joint_reductions else 1.0 for i in joints]
+    joints = _order(transmission, transmission.joint_roles, "joint", width)
+    motors = _order(transmission, transmission.actuator_roles, "actuator", width)
+    reductions = [transmission.actuators[i][1] for i in motors]
+    offsets = [transmission.offsets[i] if transmission.offsets else 0.0 for i in joints]
+    own = [
+        transmission.joint_reductions[i] if transmission.joint_reductions else 1.0 for i in joints
+    ]
     try:
         law: LinearTransmission
         if kind == "SimpleTransmission":
@@ -77,10 +79,10 @@ def drive_of(given: Transmission) -> ActuatorDrive:
         else:
             law = FourBarLinkageTransmission(reductions, own, offsets)
     except ControlError as error:
-        text = f"transmission '{given.name}': {error.message}"
-        raise ControlError(text, source=given.source) from None
-    names = tuple(given.joints[i][0] for i in joints)
-    return ActuatorDrive(names, tuple(given.actuators[i][0] for i in motors), law)
+        text = f"transmission '{transmission.name}': {error.message}"
+        raise ControlError(text, source=transmission.source) from None
+    names = tuple(transmission.joints[i][0] for i in joints)
+    return ActuatorDrive(names, tuple(transmission.actuators[i][0] for i in motors), law)
 
 
 def _order(given: Transmission, roles: Sequence[str], what: str, width: int) -> list[int]:

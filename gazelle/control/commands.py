@@ -9,14 +9,14 @@ from gazelle.array_types import Floats
 from gazelle.errors import ControlError
 
 
-def rows_of(what: str, given: ArrayLike, width: int, count: int) -> Floats:
+def rows_of(what: str, commands: ArrayLike, width: int, count: int) -> Floats:
     """Return numbers for so many worlds, shape (count, width).
 
     NaN and infinity pass, as in ros_control's forwarding controllers.
 
     Args:
         what: For the message.
-        given: Shape (width,) or (count, width); with a width of 1 also () or (count,).
+        commands: Shape (width,) or (count, width); with a width of 1 also () or (count,).
         width: Numbers for one world.
         count: Worlds.
 
@@ -24,9 +24,9 @@ def rows_of(what: str, given: ArrayLike, width: int, count: int) -> Floats:
         ControlError: They are no numbers, or more or fewer.
     """
     try:
-        values = np.asarray(given, np.float64)
+        values = np.asarray(commands, np.float64)
     except (TypeError, ValueError, OverflowError):
-        raise ControlError(f"{what} must be numbers, not {given!r}") from None
+        raise ControlError(f"{what} must be numbers, not {commands!r}") from None
     if width == 1 and values.shape in ((), (count,)):
         values = values.reshape(-1, 1)
     if values.shape not in ((width,), (count, width), (1, width)):

@@ -57,21 +57,21 @@ class JointLimits:
         )
 
     def overridden(
-        self, given: Mapping[str, Any], place: str, *, soft: bool = False
+        self, parameters: Mapping[str, Any], place: str, *, soft: bool = False
     ) -> JointLimits:
         """Return the limits with the parameters of ``joint_limits/JOINT``.
 
         Each ``has_X`` that is true needs its values, and false takes a limit away.
 
         Args:
-            given: The parameters.
+            parameters: The parameters.
             place: Where they are, for messages.
             soft: Whether soft limits are read, too; Gazebo's plugin does not.
 
         Raises:
             ControlError: A value is of a wrong type.
         """
-        values = ControllerParameters(given, place)
+        values = ControllerParameters(parameters, place)
         found = _with_positions(self, values)
         for name in ("velocity", "acceleration", "effort"):
             has = f"has_{name}_limits"

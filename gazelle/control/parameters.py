@@ -104,9 +104,11 @@ class ControllerParameters(Mapping[str, Any]):
             raise ControlError(f"the list in the parameter '{self.place}/{path}' is empty")
         return tuple(listed)
 
-    def wrong(self, path: str, wanted: str, found: object) -> ControlError:
+    def wrong(self, path: str, expected: str, value: object) -> ControlError:
         """Return the error for a value of a wrong type."""
-        return ControlError(f"the parameter '{self.place}/{path}' must be {wanted}, not {found!r}")
+        return ControlError(
+            f"the parameter '{self.place}/{path}' must be {expected}, not {value!r}"
+        )
 
     def _find(self, path: str, default: Any) -> Any:
         found = self.get(path, default)

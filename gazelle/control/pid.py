@@ -43,7 +43,7 @@ class PidGains:
     antiwindup: bool = False
 
     @classmethod
-    def read(cls, given: ControllerParameters) -> PidGains:
+    def read(cls, parameters: ControllerParameters) -> PidGains:
         """Read ``p``, ``i``, ``d``, the clamps and ``antiwindup``.
 
         The clamps are ``i_clamp``, ``i_clamp_min`` and ``i_clamp_max``.
@@ -51,14 +51,14 @@ class PidGains:
         Raises:
             ControlError: There is no ``p``, or one is of a wrong type.
         """
-        clamp = abs(given.number("i_clamp", 0.0))
+        clamp = abs(parameters.number("i_clamp", 0.0))
         return cls(
-            p=given.number("p"),
-            i=given.number("i", 0.0),
-            d=given.number("d", 0.0),
-            i_max=abs(given.number("i_clamp_max", clamp)),
-            i_min=-abs(given.number("i_clamp_min", -clamp)),
-            antiwindup=given.flag("antiwindup", default=False),
+            p=parameters.number("p"),
+            i=parameters.number("i", 0.0),
+            d=parameters.number("d", 0.0),
+            i_max=abs(parameters.number("i_clamp_max", clamp)),
+            i_min=-abs(parameters.number("i_clamp_min", -clamp)),
+            antiwindup=parameters.flag("antiwindup", default=False),
         )
 
 

@@ -28,26 +28,28 @@ class SpeedLimiter:
     jerk: tuple[float, float] = (-math.inf, math.inf)
 
     @classmethod
-    def read(cls, given: ControllerParameters) -> SpeedLimiter:
+    def read(cls, parameters: ControllerParameters) -> SpeedLimiter:
         """Read ``has_X_limits``, ``max_X`` and ``min_X``, which is ``-max_X`` if missing.
 
         Raises:
             ControlError: There are limits without a ``max_X``, or the wrong way round.
         """
         return cls(
-            _bounds(given, "velocity"), _bounds(given, "acceleration"), _bounds(given, "jerk")
+            _bounds(parameters, "velocity"),
+            _bounds(parameters, "acceleration"),
+            _bounds(parameters, "jerk"),
         )
 
-    def limit(self, wanted: Floats, before: Floats, earlier: Floats, dt: float) -> Floats:
+    def limit(self, velocity: Floats, before: Floats, earlier: Floats, dt: float) -> Floats:
         """Return the limited velocity, shape (n,): jerk first, then acceleration, then velocity.
 
         Args:
-            wanted: Velocity now, shape (n,).
+            velocity: Velocity now, shape (n,).
             before: The last one, likewise.
             earlier: The one before that, likewise.
             dt: Since the last one [s].
         """
-        return limit_speeds((wanted, before, earlier), dt, np.array(self.bounds))
+        return limit_speeds((velocity, before, earlier), dt, np.array(self.bounds))
 
     @property
     def bounds(self) -> tuple[float, ...]:
@@ -55,13 +57,13 @@ class SpeedLimiter:
         return (*self.velocity, *self.acceleration, *self.jerk)
 
 
-def _bounds(given: ControllerParameters, what: str) -> tuple[float, float]:
-    if not given.flag(f"has_{what}_limits", default=False):
+def _bounds(parameters: ControllerParameters, what: str) -> tuple[float, float]:
+    if not parameters.flag(f"has_{what}_limits", default=False):
         return (-math.inf, math.inf)
-    most = given.number(f"max_{what}")
-    least = given.number(f"min_{what}", -most)
+    most = parameters.number(f"max_{what}")
+    least = parameters.number(f"min_{what}", -most)
     if least > most:
         raise ControlError(
-            f"'{given.place}/min_{what}' ({least:g}) is above 'max_{what}' ({most:g})"
+            f"'{parameters.place}/min_{what}' ({least:g}) is above 'max_{what}' ({most:g})"
         )
     return least, most

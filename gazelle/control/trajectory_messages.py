@@ -26,14 +26,14 @@ class TrajectoryRefusedError(ControlError):
         self.code = code
 
 
-def columns_of(given: JointTrajectory, names: Sequence[str], *, partial: bool) -> Indices:
+def columns_of(trajectory: JointTrajectory, names: Sequence[str], *, partial: bool) -> Indices:
     """Return the indices of a trajectory's joints among the controller's, shape (n,).
 
     Raises:
         TrajectoryRefusedError: There are no names, one is unknown or there twice, or some are missing
             that must not be.
     """
-    wanted = tuple(names) if given.names is None else given.names
+    wanted = tuple(names) if trajectory.names is None else trajectory.names
     if not wanted:
         raise TrajectoryRefusedError("the goal names no joints", INVALID_JOINTS)
     unknown = [name for name in wanted if name not in names]
@@ -55,14 +55,14 @@ def columns_of(given: JointTrajectory, names: Sequence[str], *, partial: bool) -
     return np.array([list(names).index(name) for name in wanted], np.intp)
 
 
-def check_points(given: JointTrajectory, width: int) -> None:
+def check_points(trajectory: JointTrajectory, width: int) -> None:
     """Check that the points can be followed.
 
     Raises:
         TrajectoryRefusedError: Times do not rise, or there are more or fewer values than joints.
     """
     before = -math.inf
-    for number, point in enumerate(given.points):
+    for number, point in enumerate(trajectory.points):
         if not point.time > before:
             raise TrajectoryRefusedError(
                 f"trajectory message contains waypoints that are not strictly increasing in time: "
@@ -82,12 +82,12 @@ def check_points(given: JointTrajectory, width: int) -> None:
 
 
 def waypoints(
-    given: JointTrajectory, joints: Indices, begin: float, now: float, controller: str
+    trajectory: JointTrajectory, joints: Indices, begin: float, now: float, controller: str
 ) -> Waypoints:
     """Return the points that are still to come.
 
     Args:
-        given: Checked.
+        trajectory: Checked.
         joints: From ``columns_of``.
         begin: When it begins on the controller's clock [s].
         now: Of the next update [s].
@@ -96,19 +96,19 @@ def waypoints(
     Raises:
         TrajectoryRefusedError: All points are over.
     """
-    left = [point for point in given.points if begin + point.time > now]
-    gone = len(given.points) - len(left)
+    left = [point for point in trajectory.points if begin + point.time > now]
+    gone = len(trajectory.points) - len(left)
     if not left:
-        late = now - begin - given.points[-1].time
+        late = now - begin - trajectory.points[-1].time
         raise TrajectoryRefusedError(
             f"dropping all {gone} trajectory point(s), as they occur before the current time; "
             f"last point is {late:.6f} s in the past"
         )
-    silent = gone == 1 and not given.stamp and given.points[0].time == 0.0
+    silent = gone == 1 and not trajectory.stamp and trajectory.points[0].time == 0.0
     if gone and not silent:
         text = (
             f"controller '{controller}': dropping first {gone} trajectory point(s) out of "
-            f"{len(given.points)}, as they occur before the current time; first valid point will be "
+            f"{len(trajectory.points)}, as they occur before the current time; first valid point will be "
             f"reached in {begin + left[0].time - now:.3f} s"
         )
         warnings.warn(ControlWarning(text), stacklevel=2)

@@ -179,9 +179,9 @@ def _patched(reading: Reading) -> Iterator[io.StringIO]:
             )
         return str(folder)
 
-    def parse(given: Any, filename: str | None = None) -> Any:
-        if given is not None or filename is None:
-            return given
+    def parse(document: Any, filename: str | None = None) -> Any:
+        if document is not None or filename is None:
+            return document
         _refuse_ring(engine.filestack)
         path = _checked(filename)
         return _parse(xml.read_bytes(path), _plain(path), reading)

@@ -147,11 +147,11 @@ class JointModelGroup:
                 )
         return found
 
-    def positions(self, given: Mapping[str, float] | ArrayLike, start: ArrayLike) -> Floats:
+    def positions(self, targets: Mapping[str, float] | ArrayLike, start: ArrayLike) -> Floats:
         """Return positions of all variables, from a mapping or a whole sequence.
 
         Args:
-            given: By name, the others staying as in ``start``; or shape (n,).
+            targets: By name, the others staying as in ``start``; or shape (n,).
             start: Shape (n,).
 
         Raises:
@@ -159,8 +159,8 @@ class JointModelGroup:
                 or one is not finite.
         """
         made = np.array(start, np.float64)
-        if isinstance(given, Mapping):
-            for name, value in given.items():
+        if isinstance(targets, Mapping):
+            for name, value in targets.items():
                 if name not in self.names:
                     raise PlanningError(
                         f"the group '{self.name}' has no joint '{name}'",
@@ -168,7 +168,7 @@ class JointModelGroup:
                     )
                 made[self.names.index(name)] = value
         else:
-            values = np.asarray(given, np.float64)
+            values = np.asarray(targets, np.float64)
             if values.shape != made.shape:
                 raise PlanningError(
                     f"the group '{self.name}' has {len(made)} joints, not the shape {values.shape}",

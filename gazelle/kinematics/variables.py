@@ -53,37 +53,37 @@ class JointBounds:
     velocity: float = math.inf
     acceleration: float = math.inf
 
-    def with_parameters(self, given: Mapping[str, Any], joint: str = "") -> JointBounds:
+    def with_parameters(self, entry: Mapping[str, Any], joint: str = "") -> JointBounds:
         """Return these limits with the changes of an entry of MoveIt's ``joint_limits.yaml``.
 
         Args:
-            given: Such as ``{"has_velocity_limits": True, "max_velocity": 1.0}``; a limit whose
+            entry: Such as ``{"has_velocity_limits": True, "max_velocity": 1.0}``; a limit whose
                 ``has_...`` is False is none.
             joint: For messages.
 
         Raises:
             PlanningError: A value is no number, or a name is unknown.
         """
-        for name in given:
+        for name in entry:
             if name not in _PARAMETERS:
                 raise PlanningError(
                     f"'{name}' of joint '{joint}' is no limit", hint=did_you_mean(name, _PARAMETERS)
                 )
         made = self
-        position = given.get("has_position_limits", "min_position" in given)
+        position = entry.get("has_position_limits", "min_position" in entry)
         if position:
             made = replace(
                 made,
-                lower=_number(given, "min_position", made.lower, joint),
-                upper=_number(given, "max_position", made.upper, joint),
+                lower=_number(entry, "min_position", made.lower, joint),
+                upper=_number(entry, "max_position", made.upper, joint),
             )
-        elif "has_position_limits" in given:
+        elif "has_position_limits" in entry:
             made = replace(made, lower=-math.inf, upper=math.inf)
         for kind in ("velocity", "acceleration"):
             name = f"max_{kind}"
-            if given.get(f"has_{kind}_limits", name in given):
-                made = replace(made, **{kind: _number(given, name, getattr(made, kind), joint)})
-            elif f"has_{kind}_limits" in given:
+            if entry.get(f"has_{kind}_limits", name in entry):
+                made = replace(made, **{kind: _number(entry, name, getattr(made, kind), joint)})
+            elif f"has_{kind}_limits" in entry:
                 made = replace(made, **{kind: math.inf})
         return made
 

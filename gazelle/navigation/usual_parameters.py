@@ -42,16 +42,16 @@ USUAL: Mapping[str, Any] = {
 }  # fmt: skip
 
 
-def merged(usual: Mapping[str, Any], given: Mapping[str, Any]) -> dict[str, Any]:
+def merged(usual: Mapping[str, Any], overrides: Mapping[str, Any]) -> dict[str, Any]:
     """Merge parameters over others, level by level.
 
     Raises:
         SimulationError: They are no mapping.
     """
-    if not isinstance(given, Mapping):
-        raise SimulationError(f"parameters are a mapping of names to values, not {given!r}")
+    if not isinstance(overrides, Mapping):
+        raise SimulationError(f"parameters are a mapping of names to values, not {overrides!r}")
     found = dict(usual)
-    for name, value in given.items():
+    for name, value in overrides.items():
         below = found.get(name)
         if isinstance(value, Mapping) and isinstance(below, Mapping):
             found[name] = merged(below, value)

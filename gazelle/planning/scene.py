@@ -178,8 +178,8 @@ class PlanningScene:
         return self._allowed.copy()
 
     @allowed.setter
-    def allowed(self, given: AllowedCollisionMatrix) -> None:
-        self._allowed = given.copy()
+    def allowed(self, matrix: AllowedCollisionMatrix) -> None:
+        self._allowed = matrix.copy()
         self._changed()
 
     def allow(self, first: str, second: str, *, allowed: bool = True) -> None:

@@ -53,22 +53,24 @@ class Gains:
         return cls(*(parameters.get(tag, 0.0) for tag in tags))
 
     @classmethod
-    def of_ros_control(cls, given: Mapping[str, Any], most: float) -> Gains:
+    def of_ros_control(cls, parameters: Mapping[str, Any], most: float) -> Gains:
         """Read the parameters of ros_control's PID: without ``i_clamp`` there are no integrals.
 
         Args:
-            given: ``p``, ``i``, ``d``, ``i_clamp``, ``i_clamp_max`` and ``i_clamp_min``.
+            parameters: ``p``, ``i``, ``d``, ``i_clamp``, ``i_clamp_max`` and ``i_clamp_min``.
             most: Largest output either way.
 
         Raises:
             SimulationError: One is no number.
         """
         try:
-            p, i, d, clamp = (float(given.get(name, 0.0)) for name in ("p", "i", "d", "i_clamp"))
-            highest = float(given.get("i_clamp_max", abs(clamp)))
-            lowest = float(given.get("i_clamp_min", -abs(clamp)))
+            p, i, d, clamp = (
+                float(parameters.get(name, 0.0)) for name in ("p", "i", "d", "i_clamp")
+            )
+            highest = float(parameters.get("i_clamp_max", abs(clamp)))
+            lowest = float(parameters.get("i_clamp_min", -abs(clamp)))
         except (TypeError, ValueError, OverflowError):
-            raise SimulationError(f"gains must be numbers, not {dict(given)}") from None
+            raise SimulationError(f"gains must be numbers, not {dict(parameters)}") from None
         return cls(p, i, d, i_max=highest, i_min=lowest, most=most, least=-most)
 
 

@@ -87,14 +87,14 @@ class RosControl(ControlLoop):
 
     # -- what parameters say -----------------------------------------------------------
 
-    def take_gains(self, given: Mapping[str, Any]) -> None:
+    def take_gains(self, gains: Mapping[str, Any]) -> None:
         """Set gains by joint, as in ``gazebo_ros_control/pid_gains``."""
-        self._gains = given
+        self._gains = gains
         self._make_again()
 
-    def take_limits(self, given: Mapping[str, Any]) -> None:
+    def take_limits(self, limits: Mapping[str, Any]) -> None:
         """Set limits by joint, as in ``joint_limits``."""
-        self._limits = given
+        self._limits = limits
         self._make_again()
 
     def use_transmissions(self, use: bool) -> None:  # noqa: FBT001  the setting's value

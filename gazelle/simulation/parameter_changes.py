@@ -17,13 +17,13 @@ _LIMITS = ("joint_lower", "joint_upper")
 def set_parameters(
     simulation: RunningState,
     name: str,
-    given: Mapping[str, ArrayLike | None],
+    parameters: Mapping[str, ArrayLike | None],
     worlds: Worlds | None,
 ) -> None:
     """Set several parameters, or none of them if one cannot be."""
     engine = simulation.engine
     some = chosen(worlds, simulation.nworld)
-    wanted = {kind: values for kind, values in given.items() if values is not None}
+    wanted = {kind: values for kind, values in parameters.items() if values is not None}
 
     before: dict[str, Floats] = {}
     try:

@@ -143,14 +143,14 @@ def _work(job: TrialJob, study: optuna.Study, *, workers: int | None, ray: str |
     runs = job.folder / "runs"
     count, start = workers_at(ray, workers or plan.workers, TrialHost, job, ray is not None)
 
-    def done(given: TrialValues, outcome: TrialOutcome | None) -> None:
-        trial = trials.pop(given.number)
+    def done(values: TrialValues, outcome: TrialOutcome | None) -> None:
+        trial = trials.pop(values.number)
         if outcome is None:
             outcome = TrialOutcome(error=f"its worker was lost {TRIES} times")
         if outcome.score is None:
             errors = job.folder / "errors.log"
             with naming(errors), errors.open("a", encoding="utf-8") as log:
-                log.write(f"trial {given.number}, {given.values}: {outcome.error}\n")
+                log.write(f"trial {values.number}, {values.values}: {outcome.error}\n")
             study.tell(trial, state=TrialState.FAIL)
             return
         trial.set_user_attr("run", str(outcome.unpacked(runs)))

@@ -62,17 +62,17 @@ def products(*, bfloat16: bool) -> Iterator[None]:
 
 
 @contextlib.contextmanager
-def short_turns(*, wanted: bool = True) -> Iterator[None]:
+def short_turns(*, enabled: bool = True) -> Iterator[None]:
     """Shorten Python's thread switch interval while it lasts.
 
     One that needs the interpreter for some microseconds between two products waits up to 5 ms
     for another that works in Python; a tenth of a millisecond costs the other little.
 
     Args:
-        wanted: False changes nothing.
+        enabled: False changes nothing.
     """
     before = sys.getswitchinterval()
-    sys.setswitchinterval(min(before, _TURN) if wanted else before)
+    sys.setswitchinterval(min(before, _TURN) if enabled else before)
     try:
         yield
     finally:

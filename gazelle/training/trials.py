@@ -77,28 +77,28 @@ class TrialHost:
         self._job = job
         self._away = away
 
-    def call(self, given: TrialValues) -> TrialOutcome:
+    def call(self, values: TrialValues) -> TrialOutcome:
         """Run a trial with these values; a failure is returned, since it must not end the search."""
         try:
             if not self._away:
-                return self._tried(given, self._job.folder / "runs")
+                return self._tried(values, self._job.folder / "runs")
             with tempfile.TemporaryDirectory() as scratch:
-                outcome = self._tried(given, Path(scratch))
+                outcome = self._tried(values, Path(scratch))
                 # Two workers may begin runs in the same second.
-                name = f"{Path(outcome.run).name}-{given.number}"
+                name = f"{Path(outcome.run).name}-{values.number}"
                 return TrialOutcome(outcome.score, run=name, files=_packed(Path(outcome.run), name))
         except Exception as error:  # noqa: BLE001  # it is reported
             return TrialOutcome(error=f"{type(error).__name__}: {error}")
 
-    def _tried(self, given: TrialValues, runs: Path) -> TrialOutcome:
+    def _tried(self, values: TrialValues, runs: Path) -> TrialOutcome:
         """Train and evaluate with some values."""
         job, plan = self._job, self._job.plan
         own = task_recipe(job.task, plan.algo, imports=job.imports, options=job.options)
         result = train(
             job.task,
-            recipe=with_values(own, given.values),
+            recipe=with_values(own, values.values),
             steps=plan.steps,
-            seed=plan.seed + given.number,
+            seed=plan.seed + values.number,
             out=runs,
             imports=job.imports,
             **job.options,

@@ -29,14 +29,14 @@ _FINER = 2  # drawn so many times larger, and made smaller: smooth edges
 _HEAD, _EDGE = 70, 30  # of the picture: room for the legend, and around the plan [pixel]
 
 
-def draw_failures(found: Evaluation) -> Picture:
+def draw_failures(evaluation: Evaluation) -> Picture:
     """Draw the world with each failed episode: from its start over its end to its goal.
 
     A dot is where the episode ended, in the colour of its outcome, a cross its goal, and a
     small ring its start.
 
     Args:
-        found: Of a task that reports ``position`` or ``goal`` (x, y) [m] in its info.
+        evaluation: Of a task that reports ``position`` or ``goal`` (x, y) [m] in its info.
 
     Returns:
         Shape (height, width, 3).
@@ -44,13 +44,13 @@ def draw_failures(found: Evaluation) -> Picture:
     Raises:
         TaskError: The task reports no places.
     """
-    places = [point for record in found.records for point in _points(record).values()]
+    places = [point for record in evaluation.records for point in _points(record).values()]
     if not places:
         raise TaskError(
             "there are no places to draw: the task reports neither position nor goal",
             hint='give "position" and "goal" (x, y) in its info, or save a .csv',
         )
-    plan = found.floor_plan
+    plan = evaluation.floor_plan
     corners = np.array(places)
     if plan is not None:
         discs = plan.discs
@@ -62,9 +62,9 @@ def draw_failures(found: Evaluation) -> Picture:
             canvas.line((x0, y0), (x1, y1), _WALL, 2)
         for x, y, radius in plan.discs:
             canvas.disc((x, y), canvas.pixels(radius), _WALL)
-    for record in found.failures:
+    for record in evaluation.failures:
         _draw(canvas, record)
-    canvas.legend(found)
+    canvas.legend(evaluation)
     return canvas.finished()
 
 
@@ -126,13 +126,13 @@ class _Canvas:
         self._pen.line((left, top, right, bottom), fill=colour, width=2 * _FINER)
         self._pen.line((left, bottom, right, top), fill=colour, width=2 * _FINER)
 
-    def legend(self, found: Evaluation) -> None:
+    def legend(self, evaluation: Evaluation) -> None:
         """Draw a legend above the plan."""
         font = ImageFont.load_default(15.0 * _FINER)
-        failed = found.failures
+        failed = evaluation.failures
         self._pen.text(
             (_EDGE * _FINER, 8 * _FINER),
-            f"{found.task}: {len(failed)} of {found.episodes} episodes failed",
+            f"{evaluation.task}: {len(failed)} of {evaluation.episodes} episodes failed",
             fill=_INK,
             font=font,
         )

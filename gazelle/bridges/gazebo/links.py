@@ -90,15 +90,15 @@ class LinkServices:
         """Answer ``set_link_state``."""
         return self.set_state_of(request.link_state)
 
-    def set_state_of(self, wanted: gazebo_msgs.msg.LinkState) -> Answer:
+    def set_state_of(self, target: gazebo_msgs.msg.LinkState) -> Answer:
         """Apply a ``gazebo_msgs/LinkState`` of the service or the topic."""
-        link = self._entities.link(wanted.link_name)
+        link = self._entities.link(target.link_name)
         if link is None:
             return no("SetLinkState: link does not exist")
-        frame = self._entities.frame(wanted.reference_frame)
+        frame = self._entities.frame(target.reference_frame)
         if frame is None:
             return no("SetLinkState: failed")
-        state, worlds = read_state(wanted), self._entities.worlds
+        state, worlds = read_state(target), self._entities.worlds
         place = state.placed_in(frame)
         # Gazebo does not turn the velocity, and takes the frame's own off.
         linear, angular = state.linear - frame.linear, state.angular - frame.angular

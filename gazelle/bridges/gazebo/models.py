@@ -154,15 +154,15 @@ class ModelServices:
         """Answer ``set_model_state``."""
         return self.set_state_of(request.model_state)
 
-    def set_state_of(self, wanted: gazebo_msgs.msg.ModelState) -> Answer:
+    def set_state_of(self, target: gazebo_msgs.msg.ModelState) -> Answer:
         """Apply a ``gazebo_msgs/ModelState`` of the service or the topic."""
-        robot = self._entities.model(wanted.model_name)
+        robot = self._entities.model(target.model_name)
         if robot is None:
             return no("SetModelState: model does not exist")
-        frame = self._entities.frame(wanted.reference_frame)
+        frame = self._entities.frame(target.reference_frame)
         if frame is None:
             return no("SetModelState: specified reference frame entity does not exist")
-        missed = self._place(robot, read_state(wanted).placed_in(frame))
+        missed = self._place(robot, read_state(target).placed_in(frame))
         return yes(f"SetModelState: set model state done{', but ' if missed else ''}{missed}")
 
     def _place(self, robot: Robot, state: State) -> str:
@@ -202,13 +202,13 @@ class ModelServices:
             engine.joints[joint].set_position(positions, worlds)
 
 
-def read_pose(wanted: geometry_msgs.msg.Pose) -> State:
+def read_pose(pose: geometry_msgs.msg.Pose) -> State:
     """Convert a ``geometry_msgs/Pose``, at rest."""
-    place = np.array(point(wanted.position)), np.array(quaternion(wanted.orientation))
+    place = np.array(point(pose.position)), np.array(quaternion(pose.orientation))
     return State(*place, np.zeros(3), np.zeros(3))
 
 
-def read_state(wanted: gazebo_msgs.msg.ModelState | gazebo_msgs.msg.LinkState) -> State:
+def read_state(state: gazebo_msgs.msg.ModelState | gazebo_msgs.msg.LinkState) -> State:
     """Convert pose and twist of a ``ModelState`` or ``LinkState``."""
-    linear, angular = np.array(point(wanted.twist.linear)), np.array(point(wanted.twist.angular))
-    return replace(read_pose(wanted.pose), linear=linear, angular=angular)
+    linear, angular = np.array(point(state.twist.linear)), np.array(point(state.twist.angular))
+    return replace(read_pose(state.pose), linear=linear, angular=angular)

@@ -74,11 +74,11 @@ class PlannerSettings:
         return found
 
     def set_parameters(
-        self, config: str, group: str, given: Mapping[str, str], *, replace: bool
+        self, config: str, group: str, values: Mapping[str, str], *, replace: bool
     ) -> None:
         """Set values of a planner's configuration; for one group if it is named."""
         name = f"{group}[{config}]" if group else config
-        self._received[name] = ({} if replace else self._received.get(name, {})) | dict(given)
+        self._received[name] = ({} if replace else self._received.get(name, {})) | dict(values)
 
     def _configs(self) -> Mapping[str, Any]:
         found = self._given.get("planner_configs")

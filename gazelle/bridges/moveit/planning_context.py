@@ -123,9 +123,9 @@ class PlanningContext:
     def answer(self, response: CodedT, act: Callable[[CodedT], None], what: str) -> CodedT:
         """Fill a response that has an error code, holding ``lock``; see ``coded``."""
 
-        def hold(found: CodedT) -> None:
+        def hold(response: CodedT) -> None:
             with self.lock:
-                act(found)
+                act(response)
 
         return self.coded(response, hold, what)
 

@@ -59,7 +59,7 @@ def acceleration_message(
 
 
 def diagnostics_message(
-    name: str, now: int, warnings: Mapping[str, str], rate: float, wanted: float
+    name: str, now: int, warnings: Mapping[str, str], rate: float, target_rate: float
 ) -> diagnostic_msgs.msg.DiagnosticArray:
     """Return the diagnostics of a filter.
 
@@ -68,11 +68,11 @@ def diagnostics_message(
         now: [ns].
         warnings: Since the last diagnostics, by source.
         rate: Estimates per second.
-        wanted: The same by its parameter.
+        target_rate: The same by its parameter.
     """
     text = "; ".join(f"{key}: {each}" for key, each in warnings.items()) or "ok"
-    slow = rate < (1.0 - _RATE_SLACK) * (wanted - 2.0)
-    rates = {"Actual frequency (Hz)": f"{rate:.3f}", "Target frequency (Hz)": f"{wanted:g}"}
+    slow = rate < (1.0 - _RATE_SLACK) * (target_rate - 2.0)
+    rates = {"Actual frequency (Hz)": f"{rate:.3f}", "Target frequency (Hz)": f"{target_rate:g}"}
     found = "Frequency too low." if slow else "Desired frequency met"
     made = diagnostic_msgs.msg.DiagnosticArray(
         status=[

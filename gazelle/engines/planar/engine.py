@@ -183,9 +183,9 @@ class PlanarEngine:
         self._run.targets[rows] = np.where(np.isnan(self._run.targets[0]), math.nan, 0.0)
 
     @checked(EngineError)
-    def command(self, wanted: ArrayLike) -> None:
+    def command(self, commands: ArrayLike) -> None:
         """Set the drive commands of all bodies, shape (nworld, nbody, 3); see ``Drive``."""
-        self._run.fleet.command[:] = np.asarray(wanted, np.float64)
+        self._run.fleet.command[:] = np.asarray(commands, np.float64)
 
     def place_body(
         self,

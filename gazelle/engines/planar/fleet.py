@@ -164,8 +164,8 @@ class Fleet:
         return bool(self.bodies.sweep)
 
     @sweep.setter
-    def sweep(self, wanted: bool) -> None:
-        self.bodies.sweep = wanted
+    def sweep(self, enabled: bool) -> None:
+        self.bodies.sweep = enabled
         self._loop = None
 
     @property

@@ -28,9 +28,9 @@ class _LumpedStep:
     origin: Pose
 
 
-def plugins(found: list[LumpedLink], extensions: Extensions) -> tuple[Parameters, ...]:
+def plugins(lumped: list[LumpedLink], extensions: Extensions) -> tuple[Parameters, ...]:
     """Return the ``<plugin>`` elements of a robot: those of the model, then those of its links."""
-    steps = list(_steps(found))
+    steps = list(_steps(lumped))
     references = ["", *(name for name in extensions.by_reference if name)]
     return tuple(
         _moved(node, reference, steps)
@@ -40,9 +40,9 @@ def plugins(found: list[LumpedLink], extensions: Extensions) -> tuple[Parameters
     )
 
 
-def _steps(found: list[LumpedLink]) -> Iterator[_LumpedStep]:
+def _steps(lumped: list[LumpedLink]) -> Iterator[_LumpedStep]:
     """Yield the lumped links, the outermost first."""
-    for body in found:
+    for body in lumped:
         for member in reversed(body.members):
             if member.joint is not None:
                 yield _LumpedStep(member.link.name, member.joint.parent, member.joint.origin)

@@ -67,25 +67,25 @@ class SafetyLimits:
             return _STOP_DISTANCE
         return contract.collision_range + _MARGIN
 
-    def limited(self, wanted: VelocityCommand) -> VelocityCommand:
+    def limited(self, command: VelocityCommand) -> VelocityCommand:
         """Return the command within the greatest speeds; numbers that are none become 0."""
         return VelocityCommand(
-            _cut(wanted.linear, self.max_linear), _cut(wanted.angular, self.max_angular)
+            _cut(command.linear, self.max_linear), _cut(command.angular, self.max_angular)
         )
 
     def blocked(
-        self, wanted: VelocityCommand, scan: ScanReading, *, turned: float = 0.0
+        self, command: VelocityCommand, scan: ScanReading, *, turned: float = 0.0
     ) -> float | None:
         """Return the nearest thing in the way of a command, if it is nearer than it may be [m].
 
         Args:
-            wanted: What the robot is to do.
+            command: What the robot is to do.
             scan: The newest; all rays count, not only those that the policy sees.
             turned: How far the lidar is turned to the left [rad].
         """
-        if wanted.linear == 0.0 or self.stop_distance == 0.0:
+        if command.linear == 0.0 or self.stop_distance == 0.0:
             return None
-        ahead = 0.0 if wanted.linear > 0.0 else math.pi
+        ahead = 0.0 if command.linear > 0.0 else math.pi
         away = np.abs(np.angle(np.exp(1j * (scan.angles(turned) - ahead))))
         near = scan.measured() | np.isneginf(scan.ranges)
         ranges = np.where(near & (away <= self.stop_angle), scan.ranges, np.inf)

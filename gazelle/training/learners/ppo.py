@@ -156,7 +156,7 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
     def learn(self, *arguments: Any, **options: Any) -> FastPPO:
         """Train like Stable-Baselines3's; no update is running when it returns or raises."""
         try:
-            with short_turns(wanted=self.overlap):
+            with short_turns(enabled=self.overlap):
                 super().learn(*arguments, **options)
         except BaseException:
             if self.ahead is not None:

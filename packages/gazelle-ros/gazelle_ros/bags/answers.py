@@ -59,20 +59,20 @@ class CompressionTuple(NamedTuple):
 
 
 def types_and_topics(
-    file: BagFile, index: BagIndex, wanted: Collection[int] | None
+    file: BagFile, index: BagIndex, connections: Collection[int] | None
 ) -> TypesAndTopicsTuple:
     """Return types with their checksums, and the numbers of each topic.
 
     Args:
         file: The bag's bytes.
         index: Its index.
-        wanted: Of these connections only; None for all. Types are those of all.
+        connections: Of these connections only; None for all. Types are those of all.
     """
     types: dict[str, str] = {}
     by_topic: dict[str, list[Connection]] = {}
     for connection in index.connections.values():
         types.setdefault(connection.type, connection.md5sum)
-        if wanted is None or connection.id in wanted:
+        if connections is None or connection.id in connections:
             by_topic.setdefault(connection.topic, []).append(connection)
     found = {}
     for topic, members in sorted(by_topic.items()):

@@ -66,9 +66,9 @@ def adapted(find: Callable[[str], str], report: Report) -> Iterator[Any]:
     arguments = importlib.import_module("xacro.substitution_args")
     parse, expand_macro = package.parse, package.handle_macro_call
 
-    def parse_old(given: Any, filename: str | None = None) -> Any:
-        if given is not None or filename is None:
-            return prefix(parse(given, filename), report)
+    def parse_old(document: Any, filename: str | None = None) -> Any:
+        if document is not None or filename is None:
+            return prefix(parse(document, filename), report)
         try:
             return prefix(parse(None, str(published(filename))), report)
         except package.XacroException as error:

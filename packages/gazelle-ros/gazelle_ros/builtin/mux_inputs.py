@@ -53,35 +53,35 @@ class MuxInput:
         return f" {state} (listening to {self.topic} @ {self.timeout:f}s with priority #{self.priority})"
 
 
-def mux_input(where: str, given: Any, *, highest: int, ignored: Collection[str] = ()) -> MuxInput:
+def mux_input(where: str, entry: Any, *, highest: int, ignored: Collection[str] = ()) -> MuxInput:
     """Return a source from its parameters.
 
     Args:
         where: Name of the parameter, for messages.
-        given: Mapping with name, topic, timeout [s] and priority.
+        entry: Mapping with name, topic, timeout [s] and priority.
         highest: Highest priority; greater ones are reduced to it.
         ignored: Other keys that are allowed.
 
     Raises:
         RosError: It is malformed.
     """
-    if not isinstance(given, Mapping):
-        raise RosError(f"{where} has name, topic, timeout and priority; it is {given!r:.60}")
-    for key in given.keys() - {*_KEYS, *ignored}:
+    if not isinstance(entry, Mapping):
+        raise RosError(f"{where} has name, topic, timeout and priority; it is {entry!r:.60}")
+    for key in entry.keys() - {*_KEYS, *ignored}:
         hint = did_you_mean(key, _KEYS)
         _LOG.warning("%s has an unknown '%s'%s", where, key, f"; {hint}" if hint else "")
-    missing = [key for key in _KEYS if key not in given]
+    missing = [key for key in _KEYS if key not in entry]
     if missing:
         raise RosError(f"{where} has no '{missing[0]}'")
-    name, topic = given["name"], given["topic"]
+    name, topic = entry["name"], entry["topic"]
     for key in ("name", "topic"):
-        if not (isinstance(given[key], str) and given[key]):
-            raise RosError(f"the {key} of {where} is a word, not {given[key]!r:.60}")
-    priority = _number(where, "priority", given["priority"])
-    timeout = _number(where, "timeout", given["timeout"])
+        if not (isinstance(entry[key], str) and entry[key]):
+            raise RosError(f"the {key} of {where} is a word, not {entry[key]!r:.60}")
+    priority = _number(where, "priority", entry["priority"])
+    timeout = _number(where, "timeout", entry["timeout"])
     clamped = round(min(max(priority, 0), highest))
     if clamped != priority:
-        _LOG.warning("%s: priority %r is taken for %d", where, given["priority"], clamped)
+        _LOG.warning("%s: priority %r is taken for %d", where, entry["priority"], clamped)
     return MuxInput(name, topic, timeout, clamped)
 
 

@@ -52,10 +52,10 @@ class SmootherSettings:
     quiet: bool = False
     robot_feedback: int = NONE
 
-    def bounded(self, given: Speeds) -> Speeds:
+    def bounded(self, speeds: Speeds) -> Speeds:
         """Return speeds within the limits of speed."""
         limits = (self.speed_lim_v, self.speed_lim_w)
-        v, w = (min(max(each, -most), most) for each, most in zip(given, limits, strict=True))
+        v, w = (min(max(each, -most), most) for each, most in zip(speeds, limits, strict=True))
         return v, w
 
     def next_command(self, last: Speeds, target: Speeds, robot: Speeds) -> Speeds:

@@ -37,9 +37,9 @@ def usual_spec(name: str) -> ModuleSpec | None:
     return _package(name, source) if source and (source / "__init__.py").is_file() else None
 
 
-def comes_after(found: ModuleSpec) -> bool:
+def comes_after(spec: ModuleSpec) -> bool:
     """Return whether a module is one that packages of a workspace hide, as they are first on ROS's path."""
-    return found.origin is not None and not _SITES.isdisjoint(Path(found.origin).parts)
+    return spec.origin is not None and not _SITES.isdisjoint(Path(spec.origin).parts)
 
 
 def _package(name: str, folder: Path) -> ModuleSpec | None:

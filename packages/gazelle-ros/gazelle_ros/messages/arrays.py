@@ -166,10 +166,10 @@ def too_many(count: int) -> NoReturn:
     raise struct.error(f"an array of {count} empty messages is not plausible")
 
 
-def wrong_length(wanted: int, value: Any) -> NoReturn:
+def wrong_length(expected: int, value: Any) -> NoReturn:
     """Report an array of fixed length that has another one.
 
     Raises:
         TypeError: Always.
     """
-    raise TypeError(f"Expecting {wanted} items but found {len(value)}")
+    raise TypeError(f"Expecting {expected} items but found {len(value)}")

@@ -33,24 +33,24 @@ class TopicTypes:
         self._lock = threading.Lock()
         self._encoders: dict[str, tuple[Any, TopicEncoder]] = {}
 
-    def class_of(self, topic: str, wanted: str | None) -> Any:
+    def class_of(self, topic: str, type_name: str | None) -> Any:
         """Return the class of a topic's messages.
 
         Args:
             topic: Its name.
-            wanted: The type that a client names, or None.
+            type_name: The type that a client names, or None.
 
         Raises:
             RosError: The topic is of another type, or unknown without a named type.
         """
         types = dict(self._node.master.topic_types())
         known = types.get(self._node.resolve(topic))
-        if wanted is None and known in {None, _ANY}:
+        if type_name is None and known in {None, _ANY}:
             raise RosError(
                 f"Cannot infer topic type for topic {topic} as it is not yet advertised",
                 hint=did_you_mean(topic, types),
             )
-        message_class = load_message(wanted or str(known))
+        message_class = load_message(type_name or str(known))
         if known not in {None, _ANY, message_class._type}:
             raise RosError(
                 f"Tried to register topic {topic} with type {message_class._type}, "

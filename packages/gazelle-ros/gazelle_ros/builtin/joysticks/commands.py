@@ -73,24 +73,28 @@ class TopicCommand(ButtonCommand):
         node: On the graph.
         name: Of the command.
         match: The buttons that run it.
-        given: ``topic_name``, ``message_type``, and ``axis_mappings`` or ``message_value``.
+        parameters: ``topic_name``, ``message_type``, and ``axis_mappings`` or ``message_value``.
 
     Raises:
         Error: A parameter is missing or wrong.
     """
 
-    def __init__(self, node: Node, name: str, match: ButtonMatch, given: Mapping[str, Any]) -> None:
+    def __init__(
+        self, node: Node, name: str, match: ButtonMatch, parameters: Mapping[str, Any]
+    ) -> None:
         super().__init__(name, match)
         self._node = node
-        self._kind: Any = load_message(str(_needed(name, given, "message_type")))
-        self._values = given.get("message_value")
-        self._axes = given.get("axis_mappings", [])
-        if self._values is None and "axis_mappings" not in given:
+        self._kind: Any = load_message(str(_needed(name, parameters, "message_type")))
+        self._values = parameters.get("message_value")
+        self._axes = parameters.get("axis_mappings", [])
+        if self._values is None and "axis_mappings" not in parameters:
             raise RosError(f"the command '{name}' has no axis_mappings or message_value")
         for each in self._axes if self._values is None else self._values:
             _field_of(self._kind(), str(_needed(name, each, "target")))
         self._warned = False
-        self._publisher = node.advertise(str(_needed(name, given, "topic_name")), self._kind, 1)
+        self._publisher = node.advertise(
+            str(_needed(name, parameters, "topic_name")), self._kind, 1
+        )
 
     def run(self, joy: sensor_msgs.msg.Joy, *, changed: bool) -> None:
         """Publish the message."""
@@ -158,14 +162,14 @@ class RequestCommand(ButtonCommand):
 
 
 def action_command(
-    node: Node, name: str, match: ButtonMatch, given: Mapping[str, Any]
+    node: Node, name: str, match: ButtonMatch, parameters: Mapping[str, Any]
 ) -> RequestCommand:
     """Return a command that sends a goal: ``action_name`` and ``action_goal``.
 
     Raises:
         RosError: A parameter is missing.
     """
-    action = str(_needed(name, given, "action_name"))
+    action = str(_needed(name, parameters, "action_name"))
     clients: list[SimpleActionClient] = []
 
     def send() -> None:
@@ -178,27 +182,27 @@ def action_command(
         if not clients[0].wait_for_server(_PATIENCE_S):
             raise RosError(f"the action {node.resolve(action)} does not answer")
         goal: Any = load_message(f"{kind.removesuffix('Action')}Goal")()
-        fill_message_args(goal, [given.get("action_goal") or {}])
+        fill_message_args(goal, [parameters.get("action_goal") or {}])
         clients[0].send_goal(goal)
 
     return RequestCommand(name, match, send)
 
 
 def service_command(
-    node: Node, name: str, match: ButtonMatch, given: Mapping[str, Any]
+    node: Node, name: str, match: ButtonMatch, parameters: Mapping[str, Any]
 ) -> RequestCommand:
     """Return a command that calls a service: ``service_name`` and ``service_request``.
 
     Raises:
         RosError: A parameter is missing.
     """
-    service = node.resolve(str(_needed(name, given, "service_name")))
+    service = node.resolve(str(_needed(name, parameters, "service_name")))
 
     def send() -> None:
         with GraphInspector(node.name, node.master_uri) as graph:
             kind = load_service(service_type(graph, service))
         request = kind._request_class()
-        fill_message_args(request, [given.get("service_request") or {}])
+        fill_message_args(request, [parameters.get("service_request") or {}])
         client = node.client(service, kind)
         try:
             client.call(request)

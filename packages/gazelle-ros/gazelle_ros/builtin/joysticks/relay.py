@@ -72,13 +72,13 @@ class TurboControl:
         """Set both to the first step."""
         self.linear = self.angular = self._settings.first_step
 
-    def scaled(self, given: geometry_msgs.msg.Twist) -> geometry_msgs.msg.Twist:
+    def scaled(self, twist: geometry_msgs.msg.Twist) -> geometry_msgs.msg.Twist:
         """Return a twist with parts of -1 to 1 as speeds; zeros if it has others."""
         made = geometry_msgs.msg.Twist()
-        x, y, yaw = given.linear.x, given.linear.y, given.angular.z
+        x, y, yaw = twist.linear.x, twist.linear.y, twist.angular.z
         if max(abs(x), abs(y), abs(yaw)) > 1.0:
             return made
-        if given.linear.z or given.angular.x or given.angular.y:
+        if twist.linear.z or twist.angular.x or twist.angular.y:
             return made
         ahead = "linear_forward" if x >= 0.0 else "linear_backward"
         made.linear.x = x * self._settings.speed(ahead, self.linear)

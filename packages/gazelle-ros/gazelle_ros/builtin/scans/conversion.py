@@ -56,7 +56,7 @@ class StampedWork(ABC, Generic[Found]):
         """
 
     @abstractmethod
-    def use(self, message: Any, found: Found) -> None:
+    def use(self, message: Any, transforms: Found) -> None:
         """Use a message.
 
         Raises:
@@ -132,13 +132,13 @@ class FramedConversion(StampedWork[StampedTransform]):
             return StampedTransform(stamp)
         return self.tree.lookup(target, own, stamp)
 
-    def use(self, message: Any, found: StampedTransform) -> None:
+    def use(self, message: Any, transforms: StampedTransform) -> None:
         """Publish a message, converted.
 
         Raises:
             ValueError: It is malformed.
         """
-        made = self._convert(message, found)
+        made = self._convert(message, transforms)
         if self._frame:
             made.header.frame_id = self._frame
         self._output.publish(made)

@@ -43,24 +43,24 @@ _PARAMETERS = ("tf_message_filter_target_frame", "tf_message_filter_tolerance")
 _QUEUE, _OUTPUT_QUEUE = 50, 1000
 
 
-def scan_filter(where: str, given: Any) -> ScanFilter:
+def scan_filter(where: str, entry: Any) -> ScanFilter:
     """Return a filter from its parameters.
 
     Args:
         where: Name of the parameter, for messages.
-        given: ``type``, ``name`` and ``params``.
+        entry: ``type``, ``name`` and ``params``.
 
     Raises:
         RosError: There is no such filter, or a parameter is missing or wrong.
     """
-    if not isinstance(given, Mapping) or not isinstance(given.get("name"), str):
-        raise RosError(f"{where} has name, type and params; it is {given!r:.60}")
-    type_ = str(given.get("type", ""))
+    if not isinstance(entry, Mapping) or not isinstance(entry.get("name"), str):
+        raise RosError(f"{where} has name, type and params; it is {entry!r:.60}")
+    type_ = str(entry.get("type", ""))
     kind = KINDS.get(type_.removeprefix("laser_filters/"))
     if kind is None:
         known = [f"laser_filters/{each}" for each in KINDS]
         raise RosError(f"{where} has the unknown type '{type_}'", hint=did_you_mean(type_, known))
-    values = given.get("params") or {}
+    values = entry.get("params") or {}
     if not isinstance(values, Mapping):
         raise RosError(f"params of {where} are a mapping of names to values, not {values!r:.60}")
     known = [each.name for each in fields(kind) if each.init]
@@ -118,7 +118,7 @@ class ScanFilterChain(StampedWork[BeamScan]):
             found[frame] = ScanMotion(*ends)
         return replace(scan, motions=found)
 
-    def use(self, message: Any, found: BeamScan) -> None:  # noqa: ARG002  found holds the scan
+    def use(self, message: Any, transformed: BeamScan) -> None:  # noqa: ARG002  transformed holds the scan
         """Publish a scan, filtered.
 
         Raises:
@@ -127,8 +127,8 @@ class ScanFilterChain(StampedWork[BeamScan]):
         with self._lock:
             filters = list(self.filters)
         for each in filters:
-            found = each.apply(found)
-        self._output.publish(found.message())
+            transformed = each.apply(transformed)
+        self._output.publish(transformed.message())
 
     def _frames(self) -> Collection[str]:
         """Return the frames that transforms are needed to."""

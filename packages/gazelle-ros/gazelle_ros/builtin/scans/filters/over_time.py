@@ -37,21 +37,21 @@ class ChannelFilter:
     """Mean or median of the last few arrays.
 
     Args:
-        given: ``type`` and ``params`` with ``number_of_observations``.
+        entry: ``type`` and ``params`` with ``number_of_observations``.
 
     Raises:
         Error: The type is unknown, or the number is missing.
     """
 
-    def __init__(self, given: Any) -> None:
-        kind = str(given.get("type", "")) if isinstance(given, dict) else str(given)
+    def __init__(self, entry: Any) -> None:
+        kind = str(entry.get("type", "")) if isinstance(entry, dict) else str(entry)
         name = kind.rpartition("/")[2]
         if name not in _KINDS:
             known = [f"filters/{each}" for each in _KINDS]
             raise RosError(
                 f"there is no filter of channels '{kind}'", hint=did_you_mean(kind, known)
             )
-        count = value_of(given.get("params") or {}, "number_of_observations", 0)
+        count = value_of(entry.get("params") or {}, "number_of_observations", 0)
         if count < 1:
             raise RosError(f"the number_of_observations of {kind} is at least 1, not {count}")
         self._reduce = _KINDS[name]
@@ -65,15 +65,17 @@ class ChannelFilter:
         return self._reduce(np.array(self._rows))
 
 
-def channel_filters(given: Any) -> list[ChannelFilter]:
+def channel_filters(entries: Any) -> list[ChannelFilter]:
     """Return the filters of a chain.
 
     Raises:
         Error: It is malformed.
     """
-    if not isinstance(given, list):
-        raise RosError(f"a chain of filters is a list of name, type and params, not {given!r:.60}")
-    return [ChannelFilter(each) for each in given]
+    if not isinstance(entries, list):
+        raise RosError(
+            f"a chain of filters is a list of name, type and params, not {entries!r:.60}"
+        )
+    return [ChannelFilter(each) for each in entries]
 
 
 @dataclass(frozen=True, slots=True)
