@@ -218,8 +218,8 @@ def test_fixes_without_a_position_do_not_count(start):
 
 def test_wrong_parameters_are_errors_and_unknown_ones_logged(caplog):
     NavsatSettings.read({"zero_altitud": True})
-    assert "'zero_altitud' is unknown; did you mean 'zero_altitude'" in caplog.text
+    assert "~/zero_altitud is an unknown parameter; did you mean 'zero_altitude'" in caplog.text
     with pytest.raises(Error, match="'datum' is latitude and longitude"):
         NavsatSettings.read({"wait_for_datum": True, "datum": "here"})
-    with pytest.raises(Error, match="'frequency' is positive"):
+    with pytest.raises(Error, match="frequency is above 0"):
         NavsatSettings.read({"frequency": -1.0})

@@ -10,10 +10,9 @@ import numpy as np
 from gazelle.array_types import Floats
 from gazelle.description import Pose, SphericalCoordinates
 from gazelle.errors import Error
-from gazelle.navigation.estimation.settings import warn_of_unknown
 from gazelle.navigation.estimation.utm import UtmZone
 from gazelle.sensors.geodesy import TangentPlane
-from gazelle_ros.base.parameter_values import Values, fields_of, value_of
+from gazelle_ros.base.parameter_values import Values, fields_of, positive, value_of, warn_of_unknown
 from gazelle_ros.base.real_numbers import finite
 
 _OLD = {
@@ -70,13 +69,10 @@ class NavsatSettings:
             Error: One is of the wrong kind.
         """
         plain = [each.name for each in fields(cls) if each.name not in _ELSEWHERE]
-        for name in values:
-            if name not in (*plain, *_OLD, *_ELSEWHERE):
-                warn_of_unknown(name, [*plain, *_OLD, *_ELSEWHERE])
+        warn_of_unknown("~", values, [*plain, *_OLD, *_ELSEWHERE])
         values = dict(values) | {new: values[old] for old, new in _OLD.items() if old in values}
         found = fields_of(cls, values, without=_ELSEWHERE)
-        if not found["frequency"] > 0.0:
-            raise Error(f"'frequency' is positive, not {found['frequency']}")
+        positive("frequency", found["frequency"])
         frame = "local_enu" if found["use_local_cartesian"] else "utm"
         found["cartesian_frame_id"] = value_of(values, "cartesian_frame_id", frame)
         if found["wait_for_datum"] and "datum" in values:

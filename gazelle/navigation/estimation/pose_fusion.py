@@ -18,8 +18,7 @@ from gazelle.description import Pose
 from gazelle.engines.limits import NANOSECONDS
 from gazelle.errors import Error
 from gazelle.navigation.estimation.motion import wrapped
-from gazelle.navigation.estimation.settings import warn_of_unknown
-from gazelle_ros.base.parameter_values import Values, fields_of
+from gazelle_ros.base.parameter_values import Values, fields_of, warn_of_unknown
 from gazelle_ros.base.rotations import mix, slerp
 
 _KEPT = 10 * NANOSECONDS
@@ -53,10 +52,7 @@ class PoseFusionSettings:
         Raises:
             Error: One is of the wrong kind, or the frames are the same.
         """
-        names = [each.name for each in fields(cls)]
-        for name in values:
-            if name not in (*names, "tf_prefix"):
-                warn_of_unknown(name, names)
+        warn_of_unknown("~", values, [*(each.name for each in fields(cls)), "tf_prefix"])
         made = cls(**fields_of(cls, values))
         if made.output_frame == made.base_footprint_frame:
             raise Error(f"output_frame and base_footprint_frame are both '{made.output_frame}'")

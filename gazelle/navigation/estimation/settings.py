@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 
 from gazelle.array_types import Bools, Floats
-from gazelle.errors import Error, did_you_mean
+from gazelle.errors import Error
 from gazelle.navigation.estimation.control import ControlModel
 from gazelle.navigation.estimation.motion import SIZE
-from gazelle_ros.base.parameter_values import Values, fields_of, value_of
+from gazelle_ros.base.parameter_values import Values, fields_of, positive, value_of, warn_of_unknown
 from gazelle_ros.base.real_numbers import finite
 
 _LOG = logging.getLogger(__name__)
@@ -136,8 +136,7 @@ class FilterSettings:
         others = [each.name for each in fields(cls) if each.kw_only]
         _warn_of_unknown(values, plain)
         found = fields_of(cls, values, without=others)
-        if not found["frequency"] > 0.0:
-            raise Error(f"'frequency' is positive, not {found['frequency']}")
+        positive("frequency", found["frequency"])
         if found["history_length"] < 0.0:
             raise Error(f"'history_length' is not negative, not {found['history_length']}")
         base, odom = found["base_link_frame"], found["odom_frame"]
@@ -170,22 +169,16 @@ class FilterSettings:
 
 def _warn_of_unknown(values: Values, plain: list[str]) -> None:
     """Log parameters that are unknown or not supported."""
-    known = [*plain, *_ELSEWHERE]
-    for name in values:
-        match = _SOURCE.fullmatch(name)
-        if match is None and name not in known:
-            warn_of_unknown(name, [*known, *SUFFIXES])
-        elif match is not None and match[3] is not None and match[3] not in SUFFIXES[match[1]]:
-            source = match[1] + match[2]
-            warn_of_unknown(name, [f"{source}_{suffix}" for suffix in SUFFIXES[match[1]]])
+    matches = filter(None, map(_SOURCE.fullmatch, values))
+    sources = sorted({(kind, "0") for kind in SUFFIXES} | {(each[1], each[2]) for each in matches})
+    of_sources = [
+        f"{kind}{number}{ending}"
+        for kind, number in sources
+        for ending in ("", *(f"_{suffix}" for suffix in SUFFIXES[kind]))
+    ]
+    warn_of_unknown("~", values, [*plain, *_ELSEWHERE, *of_sources])
     if values.get("debug"):
         _LOG.warning("the parameter 'debug' is not supported: no file is written")
-
-
-def warn_of_unknown(name: str, known: list[str]) -> None:
-    """Log that a parameter is unknown, with the nearest known one."""
-    hint = did_you_mean(name, known)
-    _LOG.warning("the parameter '%s' is unknown%s", name, f"; {hint}" if hint else "")
 
 
 def _sources(values: Values) -> list[SourceSettings]:

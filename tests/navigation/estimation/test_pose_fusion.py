@@ -93,6 +93,6 @@ def test_parameters(caplog):
         False,
         "odom_combined",
     )
-    assert "'imu_use' is unknown; did you mean 'imu_used'" in caplog.text
+    assert "~/imu_use is an unknown parameter; did you mean 'imu_used'" in caplog.text
     with pytest.raises(Error, match="are both 'base_footprint'"):
         PoseFusionSettings.read({"output_frame": "base_footprint"})

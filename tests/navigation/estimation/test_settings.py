@@ -50,10 +50,10 @@ def test_control_uses_the_limits_of_acceleration_for_braking():
 @pytest.mark.parametrize(
     ("values", "text"),
     [
-        ({"two_d_mod": True}, "'two_d_mod' is unknown; did you mean 'two_d_mode'"),
+        ({"two_d_mod": True}, "~/two_d_mod is an unknown parameter; did you mean 'two_d_mode'"),
         (
             {"odom0": "odom", "odom0_config": CONFIG, "odom0_diferential": True},
-            "'odom0_diferential' is unknown; did you mean 'odom0_differential'",
+            "~/odom0_diferential is an unknown parameter; did you mean 'odom0_differential'",
         ),
         (
             {"odom0": "o", "odom0_config": CONFIG, "odom2": "o", "odom2_config": CONFIG},
@@ -79,7 +79,7 @@ def test_doubtful_parameters_are_logged(values, text, caplog):
         ({"odom0": "odom", "odom0_config": CONFIG[:-1]}, "a list of 15 bools"),
         ({"process_noise_covariance": [0.1] * 15}, "a list of 225 numbers"),
         ({"initial_state": [0.0] * 14 + ["x"]}, "a list of 15 numbers"),
-        ({"frequency": 0.0}, "'frequency' is positive"),
+        ({"frequency": 0.0}, "frequency is above 0"),
         ({"history_length": -1.0}, "'history_length' is not negative"),
         ({"odom_frame": "map"}, "are different frames"),
         ({"world_frame": "earth"}, "is the map_frame 'map' or the odom_frame 'odom'"),

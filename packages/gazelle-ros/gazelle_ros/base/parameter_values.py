@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import contextlib
 import logging
+import math
 from collections.abc import Collection, Mapping
 from dataclasses import MISSING, Field, fields
 from typing import Any, TypeVar
 
-from gazelle_ros.base.errors import Error, did_you_mean
+from gazelle_ros.base.errors import Error, RosError, did_you_mean
 from gazelle_ros.base.real_numbers import real
 
 Values = Mapping[str, Any]
 Settings = TypeVar("Settings")
 
+_LEAST = 1e-9
 _LOG = logging.getLogger("gazelle.ros.parameters")
 
 
@@ -32,6 +35,25 @@ def value_of(values: Values, name: str, default: Any) -> Any:
     if isinstance(found, kind) and not (kind is int and isinstance(found, bool)):
         return found
     raise Error(f"the parameter '{name}' is a {kind.__name__}, not {found!r:.60}")
+
+
+def positive(name: str, value: Any, hint: str | None = None) -> float:
+    """Return a number above 0, with an inverse and nanoseconds of an ordinary size.
+
+    Args:
+        name: Of the number, for the message.
+        value: A number, or its text.
+        hint: For the message.
+
+    Raises:
+        RosError: It is none.
+    """
+    number = math.nan
+    with contextlib.suppress(TypeError, ValueError, OverflowError):
+        number = float(value)
+    if not _LEAST <= number <= 1.0 / _LEAST:
+        raise RosError(f"{name} is above 0 (1e-9 to 1e9), not {value!r:.60}", hint=hint)
+    return number
 
 
 def fields_of(kind: type[Any], values: Values, *, without: Collection[str] = ()) -> dict[str, Any]:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 
 from gazelle_ros.base.errors import RosError
+from gazelle_ros.base.parameter_values import positive
 from gazelle_ros.builtin.arguments import parse_arguments, spin
 from gazelle_ros.msgs import geometry_msgs, tf2_msgs
 from gazelle_ros.node import Node
@@ -35,9 +36,7 @@ def main_tf(arguments: Sequence[str]) -> int:
         raise RosError("there are too few arguments", hint=usage)
     *rest, period = found.plain
     transform = _transform(rest, usage)
-    seconds = _number(period, usage) / 1000.0
-    if not 0.0 < seconds < 1e6:
-        raise RosError(f"the period '{period}' is not above 0", hint=usage)
+    seconds = positive("the period", period, usage) / 1000.0
     with found.start() as node:
         _repeat(node, transform, seconds)
         return spin(node)

@@ -10,6 +10,7 @@ from typing import Any
 
 from gazelle_ros.base.errors import RosError
 from gazelle_ros.base.output import say_line
+from gazelle_ros.base.parameter_values import positive
 from gazelle_ros.base.writing import write_text
 from gazelle_ros.builtin.tf_delays import Delays
 from gazelle_ros.compat import rospy
@@ -34,7 +35,7 @@ def echo(arguments: Sequence[str]) -> int:
     words = split_arguments(arguments)[0]
     if len(words) not in {2, 3}:
         raise RosError("tf_echo takes two frames", hint=_ECHO_USAGE)
-    period = 1.0 / _positive(words[2]) if len(words) == 3 else 1.0
+    period = 1.0 / positive("the rate", words[2], _ECHO_USAGE) if len(words) == 3 else 1.0
     _begin("tf_echo", arguments)
     buffer = Buffer()
     listener = TransformListener(buffer)
@@ -141,13 +142,3 @@ def _described(buffer: Any, source: str, target: str) -> str:
 
 def _row(*values: float) -> str:
     return "[" + ", ".join(f"{value:.3f}" for value in values) + "]"
-
-
-def _positive(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = 0.0
-    if not 0.0 < value < math.inf:
-        raise RosError(f"'{text}' is no rate above 0", hint=_ECHO_USAGE)
-    return value

@@ -9,6 +9,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from gazelle_ros.base.errors import RosError
+from gazelle_ros.base.parameter_values import positive
 from gazelle_ros.builtin.arguments import parse_arguments, spin
 from gazelle_ros.msgs import std_msgs, topic_tools
 from gazelle_ros.node import Node
@@ -74,7 +75,7 @@ def throttle(arguments: Sequence[str]) -> int:
     numbers = {"messages": 1, "bytes": 2}.get(kind, 0)
     if not numbers or len(words) < 1 + numbers:
         raise RosError("the arguments are wrong", hint=usage)
-    limits = [_positive(each, usage) for each in words[1 : 1 + numbers]]
+    limits = [positive("the number", each, usage) for each in words[1 : 1 + numbers]]
     source, target = _topics([words[0], *words[1 + numbers :]], usage, "_throttle")
     gate: Pass = _MessageGate(limits[0]).passes if kind == "messages" else _ByteGate(*limits).passes
     with found.start() as node:
@@ -123,16 +124,6 @@ def _topics(words: Sequence[str], usage: str, suffix: str) -> tuple[str, str]:
     if not 1 <= len(words) <= 2:
         raise RosError("give one topic or two", hint=usage)
     return words[0], words[1] if len(words) == 2 else words[0] + suffix
-
-
-def _positive(text: str, usage: str) -> float:
-    try:
-        number = float(text)
-    except ValueError:
-        number = 0.0
-    if not number > 0.0:
-        raise RosError(f"'{text}' is no number above 0", hint=usage)
-    return number
 
 
 class _MessageGate:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import logging
-import math
 import threading
 from collections import deque
 from dataclasses import dataclass
 from statistics import median_high
 
 from gazelle_ros.base.errors import RosError
+from gazelle_ros.base.parameter_values import positive
 from gazelle_ros.builtin.parameters import private_values, settings_of
 from gazelle_ros.builtin.speeds import Speeds, repeat, twist_of
 from gazelle_ros.builtin.tuned_settings import TunedSettings, tunable
@@ -195,8 +195,7 @@ class VelocitySmoother:
 
 
 def _checked(settings: SmootherSettings) -> SmootherSettings:
-    if not (math.isfinite(settings.frequency) and settings.frequency > 0.0):
-        raise RosError(f"the frequency is above 0 Hz, not {settings.frequency!r}")
+    positive("frequency", settings.frequency)
     if settings.robot_feedback not in {NONE, ODOMETRY, COMMANDS}:
         raise RosError(f"robot_feedback is 0, 1 or 2, not {settings.robot_feedback}")
     return settings

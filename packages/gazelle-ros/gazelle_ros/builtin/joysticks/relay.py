@@ -8,8 +8,7 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 from gazelle_ros.actions import SimpleActionServer
-from gazelle_ros.base.errors import RosError
-from gazelle_ros.base.parameter_values import Values, fields_of, value_of, warn_of_unknown
+from gazelle_ros.base.parameter_values import Values, fields_of, positive, value_of, warn_of_unknown
 from gazelle_ros.builtin.arguments import run_node
 from gazelle_ros.builtin.parameters import private_values
 from gazelle_ros.msgs import geometry_msgs, std_msgs, twist_mux_msgs, visualization_msgs
@@ -173,7 +172,7 @@ def _turbo_of(node: Node, values: Values) -> TurboSettings:
     where = node.resolve("~turbo")
     warn_of_unknown(where, values, [each.name for each in fields(TurboSettings)])
     settings = TurboSettings(**fields_of(TurboSettings, values))
-    wrong = [key for key, value in values.items() if key != "init_step" and not value > 0]
-    if wrong:
-        raise RosError(f"{where}/{wrong[0]} is above 0, not {values[wrong[0]]!r:.60}")
+    for each in fields(TurboSettings):
+        if each.name in values and each.name != "init_step":
+            positive(f"{where}/{each.name}", values[each.name])
     return settings

@@ -6,7 +6,7 @@ import math
 import random
 from dataclasses import dataclass
 
-from gazelle_ros.base.errors import RosError
+from gazelle_ros.base.parameter_values import positive
 from gazelle_ros.builtin.kobuki.controller import KobukiController
 from gazelle_ros.builtin.parameters import settings_of
 from gazelle_ros.builtin.speeds import Speeds, twist_of
@@ -62,9 +62,7 @@ class RandomWalker(KobukiController):
     def __init__(self, node: Node, chance: random.Random | None = None) -> None:
         self.settings = settings_of(node, RandomWalkerSettings)
         for name in ("update_rate", "angular_velocity"):
-            value = getattr(self.settings, name)
-            if not (math.isfinite(value) and value > 0.0):
-                raise RosError(f"{name} is above 0, not {value!r}")
+            positive(name, getattr(self.settings, name))
         self._chance = chance or random.Random()  # noqa: S311  # no secret
         self._turn: RandomTurn | None = None
         self._obstructed = False

@@ -12,6 +12,7 @@ import numpy as np
 
 from gazelle_ros.base.array_types import Floats
 from gazelle_ros.base.errors import RosError
+from gazelle_ros.base.parameter_values import positive
 from gazelle_ros.builtin.arguments import run_node
 from gazelle_ros.builtin.parameters import settings_of
 from gazelle_ros.builtin.scans.conversion import FramedConversion
@@ -84,8 +85,9 @@ def pointcloud_to_laserscan(node: Node) -> FramedConversion:
         Error: A parameter is wrong.
     """
     settings = settings_of(node, CloudScanSettings)
-    if not (settings.angle_increment > 0.0 and settings.angle_max > settings.angle_min):
-        raise RosError("angle_increment is above 0, and angle_max above angle_min")
+    positive("angle_increment", settings.angle_increment)
+    if not settings.angle_max > settings.angle_min:
+        raise RosError("angle_max is above angle_min")
     return FramedConversion(
         node,
         source=("cloud_in", sensor_msgs.msg.PointCloud2),
