@@ -29,6 +29,7 @@ from gazelle.engines import planar
 from gazelle.engines.tracer import make_tracer
 from gazelle.formats import Octree
 from gazelle.geometry import triangles
+from gazelle.geometry.mesh_data import MeshData
 from gazelle.geometry.planar_part import PlanarPart
 from gazelle.sensors import View, look_at
 from gazelle.streams import Stream
@@ -309,6 +310,8 @@ TABLE: dict[str, Callable[[Samples], Any]] = {
     "Serializer": lambda s: lambda call, *a: call(*a),
     "Generator": lambda s: np.random.default_rng(0),
     "Floats": lambda s: np.zeros(3),
+    "Ints32": lambda s: np.array([[0, 1, 2]], np.int32),
+    "MeshData": lambda s: MeshData(np.eye(3), TABLE["Ints32"](s)),
     "Bools": lambda s: np.ones(3, bool),
     "Indices": lambda s: np.arange(3),
     "Paint": lambda s: "grey",

@@ -6,10 +6,13 @@ import math
 from dataclasses import dataclass
 from typing import Protocol
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Worlds
+from gazelle.errors import EngineError
 from gazelle.native.system import System
 
 
+@checked(EngineError)
 @dataclass(frozen=True, slots=True)
 class RangeRays:
     """Rays of a range finder, the same in every scan.

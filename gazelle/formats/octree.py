@@ -8,6 +8,7 @@ from typing import Final
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Ints32
 from gazelle.errors import FormatError, did_you_mean
 from gazelle.formats.octree_leaves import CUT_SHORT, DEPTH, TOO_DEEP, TOO_MANY, occupied_leaves
@@ -19,6 +20,7 @@ _MOST_BYTES: Final = 64 << 20
 _MOST_LEAVES: Final = 2_000_000
 
 
+@checked(FormatError)
 @dataclass(frozen=True, slots=True, eq=False)
 class Octree:
     """A map of what is occupied, coarse where it may be.

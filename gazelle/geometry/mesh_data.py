@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gazelle.argument_checks import checked
+from gazelle.array_types import Floats, Ints32
 from gazelle.errors import FormatError
 
 
@@ -25,8 +25,8 @@ class MeshData:
             finite.
     """
 
-    vertices: NDArray[np.float64]
-    faces: NDArray[np.int32]
+    vertices: Floats
+    faces: Ints32
 
     def __post_init__(self) -> None:
         count, faces = len(self.vertices), self.faces
@@ -36,6 +36,6 @@ class MeshData:
             raise FormatError(f"triangles of a mesh need three ints each, from 0 to {count - 1}")
 
     @property
-    def bounds(self) -> NDArray[np.float64]:
+    def bounds(self) -> Floats:
         """Smallest and largest coordinates [m], shape (2, 3)."""
         return np.stack([self.vertices.min(axis=0), self.vertices.max(axis=0)])
