@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import signal
 import threading
+from functools import partial
 
 import pytest
 from ros.graph import Background, until
@@ -12,6 +13,8 @@ from gazelle_ros import load_message, load_service
 from gazelle_ros.base.errors import RosError
 from gazelle_ros.builtin import registry
 from gazelle_ros.builtin.arguments import CallbackWork
+from gazelle_ros.builtin.nodelets import bonds
+from gazelle_ros.builtin.nodelets.bonds import BondHolder
 from gazelle_ros.builtin.nodelets.command import main
 from gazelle_ros.builtin.nodelets.manager import NodeletManager
 from gazelle_ros.builtin.package import BuiltinPackage
@@ -137,8 +140,59 @@ def test_the_loader_waits_unloads_at_its_end_and_ends_with_the_manager(
     assert made.loaded == []
     loader = Background(lambda _stop: main(["load", "testing/Repeating", "manager"]))
     until(lambda: made.loaded == ["/testing_Repeating"])
-    made.unload("/testing_Repeating")
+    until(lambda: made._bonds._publisher.num_connections > 1)
+    assert made.unload("/testing_Repeating")
+    loader.end(stop=False)
+
+
+@pytest.fixture
+def short_bonds(monkeypatch):
+    """Set short periods and timeouts of heartbeats."""
+    for name, seconds in {"PERIOD": 0.05, "TIMEOUT": 1.0, "CONNECT": 1.0}.items():
+        monkeypatch.setattr(bonds, f"_{name}_S", seconds)
+
+
+def test_a_bond_breaks_when_the_other_side_ends_it(make_node, short_bonds):
+    broken = []
+    first, second = (BondHolder(make_node(name), "/bond") for name in ("first", "second"))
+    for name in ("one", "two"):
+        first.add(name, partial(broken.append, f"first {name}"))
+        second.add(name, partial(broken.append, f"second {name}"))
+    until(lambda: first._publisher.num_connections > 1 < second._publisher.num_connections)
+    second.end("one")
+    until(lambda: broken)
+    assert broken == ["first one"]
+    assert (list(first._bonds), list(second._bonds)) == (["two"], ["two"])
+
+
+def test_a_bond_breaks_when_the_other_side_is_silent(make_node, short_bonds, listen):
+    broken, beats = [], listen("/bond", load_message("bond/Status"))
+    holder, other = make_node("holder"), make_node("other")
+    BondHolder(holder, "/bond").add("one", partial(broken.append, "one"))
+    BondHolder(other, "/bond").add("one", lambda: None)
+    until(lambda: len(beats) > 20)  # half a second
+    assert broken == []
+    other.close()
+    until(lambda: broken == ["one"])
+
+
+def test_a_bond_without_another_side_breaks_after_a_while(make_node, short_bonds):
+    broken = []
+    BondHolder(make_node("holder"), "/bond").add("one", partial(broken.append, "one"))
+    until(lambda: broken == ["one"])
+
+
+def test_a_loader_without_a_bond_stays_beside_an_ended_manager(make_node, master, monkeypatch):
+    monkeypatch.setenv("ROS_MASTER_URI", master.uri)
+    words = ["load", "testing/Repeating", "manager", "--no-bond", "__name:=one"]
+    loader = Background(lambda _stop: main(words))
+    node = make_node("manager")
+    made = NodeletManager(node)
+    until(lambda: made.loaded == ["/one"])
+    assert made._bonds._bonds == {}
     node.close()
+    with GraphInspector("rosnode", master_uri=master.uri) as graph:
+        assert kill(graph, ["/one"]) == []
     loader.end(stop=False)
 
 

@@ -5,23 +5,28 @@ from __future__ import annotations
 import contextlib
 import logging
 import threading
-from collections.abc import Sequence
+import uuid
+from collections.abc import Callable, Sequence
 
 from gazelle_ros.base.errors import RosError, did_you_mean
 from gazelle_ros.base.interrupts import stopping
-from gazelle_ros.builtin.arguments import NodeArguments, parse_arguments, run_node
+from gazelle_ros.builtin.arguments import (
+    CallbackWork,
+    NodeArguments,
+    parse_arguments,
+    run_node,
+)
+from gazelle_ros.builtin.nodelets.bonds import BondHolder
 from gazelle_ros.builtin.nodelets.manager import NodeletManager
 from gazelle_ros.builtin.registry import nodelet
 from gazelle_ros.errors import (
     NodeClosedError,
     RosTimeoutError,
     ServiceError,
-    ServiceNotFoundError,
     UnreachableError,
 )
 from gazelle_ros.msgs import nodelet as messages
 from gazelle_ros.node import Node
-from gazelle_ros.services import find_service
 
 USAGE = """nodelet load pkg/Class MANAGER    run a nodelet in a manager, until this program ends
 nodelet unload NAME MANAGER       end a nodelet of a manager
@@ -31,6 +36,7 @@ _WORDS = {"manager": 1, "standalone": 2, "unload": 3, "load": 3}
 _FIRST_WAIT_S = 10.0
 _PROBE_S = 0.5
 _ANSWER_S = 5.0
+_NO_BOND = "--no-bond"
 _MANAGER_IS_GONE = (ServiceError, UnreachableError, RosTimeoutError)
 _LOG = logging.getLogger("gazelle.ros.nodelet")
 
@@ -61,7 +67,7 @@ def default_name(kind: str) -> str:
 def _load(found: NodeArguments) -> int:
     _, kind, manager, *rest = found.plain
     with found.start() as node, stopping() as stop:
-        loader = _NodeletLoader(node, manager)
+        loader = _NodeletLoader(node, manager, bonded=_NO_BOND not in rest)
 
         def end(_reason: str) -> None:
             loader.unload()  # now, as the node is closed after this
@@ -70,11 +76,13 @@ def _load(found: NodeArguments) -> int:
         node.on_shutdown.append(end)
         if not _wait_for_manager(node, manager, stop):
             return 0
-        loader.load(kind, [each for each in rest if each != "--no-bond"])
-        while not node.closed and not stop.wait(_PROBE_S):
-            if not _is_there(node, manager):
-                _LOG.warning("the nodelet manager %s is gone, and %s with it", manager, node.name)
-                return 0
+
+        def follow() -> None:
+            _LOG.warning("%s ends: %s has ended or unloaded it", node.name, manager)
+            stop.set()
+
+        loader.load(kind, [each for each in rest if each != _NO_BOND], follow)
+        CallbackWork(node).run(stop)
         loader.unload()
     return 0
 
@@ -82,19 +90,38 @@ def _load(found: NodeArguments) -> int:
 class _NodeletLoader:
     """Client of a manager for one nodelet, which is called as the node."""
 
-    def __init__(self, node: Node, manager: str) -> None:
+    def __init__(self, node: Node, manager: str, *, bonded: bool) -> None:
         self._node, self._manager = node, manager
+        self._bonds = BondHolder(node, f"{manager}/bond") if bonded else None
+        self._bond = f"{node.name}_{uuid.uuid4().hex}" if bonded else ""
         self._lock = threading.Lock()
         self._loaded = False
 
-    def load(self, kind: str, arguments: list[str]) -> None:
+    def load(self, kind: str, arguments: list[str], on_end: Callable[[], object]) -> None:
+        """Load the nodelet.
+
+        Args:
+            kind: Its class.
+            arguments: Of the nodelet.
+            on_end: Called when the manager ends, or unloads the nodelet.
+        """
         request = messages.srv.NodeletLoadRequest(
             name=self._node.name,
             type=kind,
             remap_source_args=list(self._node.remappings),
             remap_target_args=list(self._node.remappings.values()),
             my_argv=arguments,
+            bond_id=self._bond,
         )
+
+        def broken() -> None:
+            with self._lock:  # the answer of the service has come then
+                wanted, self._loaded = self._loaded, False
+            if wanted:
+                on_end()
+
+        if self._bonds is not None:
+            self._bonds.add(self._bond, broken)
         with self._lock:
             client = self._node.client(f"{self._manager}/load_nodelet", messages.srv.NodeletLoad)
             self._loaded = bool(client.call(request).success)
@@ -104,11 +131,11 @@ class _NodeletLoader:
     def unload(self) -> None:
         """Unload the nodelet, unless that was done."""
         with self._lock:
-            if self._loaded and not self._node.closed:
-                # A manager that ends at the same time has unloaded it.
-                with contextlib.suppress(*_MANAGER_IS_GONE):
-                    _request_unload(self._node, self._manager, self._node.name)
-            self._loaded = False
+            wanted, self._loaded = self._loaded and not self._node.closed, False
+        if wanted:
+            # A manager that ends at the same time has unloaded it.
+            with contextlib.suppress(*_MANAGER_IS_GONE):
+                _request_unload(self._node, self._manager, self._node.name)
 
 
 def _wait_for_manager(node: Node, manager: str, stop: threading.Event) -> bool:
@@ -126,20 +153,6 @@ def _wait_for_manager(node: Node, manager: str, stop: threading.Event) -> bool:
         else:
             return True
     return False
-
-
-def _is_there(node: Node, manager: str) -> bool:
-    service = node.resolve(f"{manager}/unload_nodelet")
-    try:
-        find_service(node, service)  # fails at once where the manager has ended in order
-        node.wait_for_service(service, _ANSWER_S)
-    except (ServiceNotFoundError, RosTimeoutError):
-        return False
-    except UnreachableError:
-        return True  # no master now says nothing of the manager
-    except NodeClosedError:
-        return True  # the loader itself ends
-    return True
 
 
 def _unload(found: NodeArguments) -> int:
