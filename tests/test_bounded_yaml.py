@@ -70,6 +70,14 @@ def test_aliases_that_make_little_are_taken(read):
 
 
 @pytest.mark.parametrize("reader", READERS)
+@pytest.mark.parametrize("text", ["data: \udcff", "data: \0"])
+def test_bytes_that_are_no_text_are_refused(text, reader):
+    read, error = READERS[reader]
+    with pytest.raises(error, match=r"not UTF-8, or a null"):
+        read(text)
+
+
+@pytest.mark.parametrize("reader", READERS)
 @pytest.mark.parametrize(
     "value",
     ["!!int ''", "!!float a", "!!timestamp 1", "2001-99-99", "!!bool x", "9" * 5000, "!!int 0x"],

@@ -41,7 +41,19 @@ END_S, END_CLOCK_S = 2.0, 60.0
 BYTES = 2 * 2**30
 POLL_S = 0.01
 WAITING = {
-    *("bag-play", "bag-record", "bridge", "deploy", "exec", "launch", "master", "run", "shell"),
+    *(
+        "bag-play",
+        "bag-record",
+        "bridge",
+        "demo",
+        "deploy",
+        "eval",
+        "exec",
+        "launch",
+        "master",
+        "run",
+        "shell",
+    ),
     *(
         "topic-bw",
         "topic-delay",

@@ -15,6 +15,7 @@ from gazelle_ros.bags import Bag, BagError, BagFormatError, BagUnindexedError, C
 from gazelle_ros.bags.info import as_dict, as_yaml, describe, value_of
 from gazelle_ros.bags.operations import check, filter_bag, keep_of, recompress, reindex
 from gazelle_ros.base.errors import RosError
+from gazelle_ros.cli.main import main
 
 KINDS = ["none", "bz2", "lz4"]
 ROWS = [("/a", "one", 1.0), ("/b", "two", 2.5), ("/a", "three", 3.0)]
@@ -335,3 +336,12 @@ def test_long_durations_are_in_hours(write_bag):
 
 def test_compression_names_are_rosbags():
     assert tuple(KINDS) == (Compression.NONE, Compression.BZ2, Compression.LZ4)
+
+
+@pytest.mark.parametrize("command", ["compress", "decompress", "reindex"])
+def test_no_bag_is_replaced_if_another_cannot_be(write_bag, tmp_path, command):
+    path = write_bag(ROWS)
+    before = path.read_bytes()
+    assert main(["bag", command, str(path), str(tmp_path / "nowhere.bag")]) == 1
+    assert path.read_bytes() == before
+    assert [each.name for each in tmp_path.iterdir()] == [path.name]

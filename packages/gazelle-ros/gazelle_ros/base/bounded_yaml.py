@@ -10,6 +10,8 @@ import functools
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
+from gazelle_ros.base.characters import can_be_written
+
 if TYPE_CHECKING:
     import yaml
 
@@ -50,6 +52,8 @@ def refuse_deep(text: str | bytes) -> None:
     """
     import yaml
 
+    if isinstance(text, str) and not can_be_written(text):
+        raise yaml.YAMLError("it holds bytes that are not UTF-8, or a null")
     depth = 0
     for event in yaml.parse(text, getattr(yaml, "CSafeLoader", yaml.SafeLoader)):
         if isinstance(event, yaml.CollectionStartEvent):

@@ -148,9 +148,22 @@ def _filter(args: argparse.Namespace) -> int:
     return 0
 
 
+def _open_all(paths: list[str], *, allow_unindexed: bool = False) -> None:
+    """Check that all are bags, before the first one is replaced.
+
+    Raises:
+        BagError: One is not.
+    """
+    from gazelle_ros.bags.reader import BagReader
+
+    for path in paths:
+        BagReader(path, allow_unindexed=allow_unindexed).close()
+
+
 def _reindex(args: argparse.Namespace) -> int:
     from gazelle_ros.bags.operations import reindex
 
+    _open_all(args.bags, allow_unindexed=True)
     for path in args.bags:
         old, found = reindex(path, folder=args.output_dir, force=args.force)
         count = sum(sum(chunk.counts.values()) for chunk in found.index.chunks)
@@ -173,6 +186,7 @@ def _to_mcap(args: argparse.Namespace) -> int:
 def _compress(args: argparse.Namespace) -> int:
     from gazelle_ros.bags.operations import recompress
 
+    _open_all(args.bags)
     for path in args.bags:
         old = recompress(path, args.compression, folder=args.output_dir, force=args.force)
         if not args.quiet:
