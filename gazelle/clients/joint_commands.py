@@ -133,13 +133,13 @@ class JointCommander(Closeable):
         self._subscriber.close()
 
     def _not_there(
-        self, left: Mapping[str, float], wanted: Mapping[str, float], timeout: float
+        self, left: Mapping[str, float], targets: Mapping[str, float], timeout: float
     ) -> str:
-        missing = [name for name in wanted if name not in left]
+        missing = [name for name in targets if name not in left]
         if missing:
             return f"nothing of '{missing[0]}' came on {self._states_topic} in {timeout:g} s"
         worst = max(left, key=lambda name: abs(left[name]))
-        return f"'{worst}' is still {left[worst]:.4g} away from {wanted[worst]:.4g} after {timeout:g} s"
+        return f"'{worst}' is still {left[worst]:.4g} away from {targets[worst]:.4g} after {timeout:g} s"
 
     def _in_order(self, targets: float | Sequence[float] | Mapping[str, float]) -> list[float]:
         if isinstance(targets, Mapping):

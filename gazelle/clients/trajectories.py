@@ -262,6 +262,6 @@ def _point(waypoint: JointWaypoint, count: int) -> trajectory_msgs.msg.JointTraj
     )
 
 
-def _tolerances(given: Mapping[str, float]) -> list[control_msgs.msg.JointTolerance]:
+def _tolerances(tolerances: Mapping[str, float]) -> list[control_msgs.msg.JointTolerance]:
     kind = control_msgs.msg.JointTolerance
-    return [kind(name=name, position=value) for name, value in given.items()]
+    return [kind(name=name, position=value) for name, value in tolerances.items()]

@@ -85,16 +85,16 @@ def drive_of(transmission: Transmission) -> ActuatorDrive:
     return ActuatorDrive(names, tuple(transmission.actuators[i][0] for i in motors), law)
 
 
-def _order(given: Transmission, roles: Sequence[str], what: str, width: int) -> list[int]:
+def _order(transmission: Transmission, roles: Sequence[str], what: str, width: int) -> list[int]:
     """Return the indices of the first and the second joint or actuator in the file."""
     if width == 1 or not any(roles):
         return [*range(width)]
     wanted = [f"{what}{number}" for number in range(1, width + 1)]
     if sorted(roles) != wanted:
         raise ControlError(
-            f"the roles of transmission '{given.name}' must be {' and '.join(wanted)}, not "
+            f"the roles of transmission '{transmission.name}' must be {' and '.join(wanted)}, not "
             f"{', '.join(repr(each) for each in roles)}",
-            source=given.source,
+            source=transmission.source,
         )
     return [list(roles).index(each) for each in wanted]
 

@@ -60,14 +60,14 @@ class DiffDriveController(BaseController):
             self.publish_always(self.add_output(name, TrajectoryState, self._state, queue_size=100))
         self.add_tuning("", _TUNABLES, self._tuned, self._tune)
 
-    def _read_sizes(self, given: ControllerParameters, left: str, right: str) -> Floats:
+    def _read_sizes(self, parameters: ControllerParameters, left: str, right: str) -> Floats:
         """Return radius and separation [m], as given or as in the URDF."""
-        if "wheel_separation" in given:
-            separation = given.number("wheel_separation")
+        if "wheel_separation" in parameters:
+            separation = parameters.number("wheel_separation")
         else:
             separation = wheel_distance(self.model, left, right)
-        if "wheel_radius" in given:
-            radius = given.number("wheel_radius")
+        if "wheel_radius" in parameters:
+            radius = parameters.number("wheel_radius")
         else:
             radius = wheel_radius(self.model, left, (Cylinder, Sphere))
         if separation <= 0.0 or radius <= 0.0:

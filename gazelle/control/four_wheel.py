@@ -58,23 +58,23 @@ class FourWheelSteeringController(BaseController):
         )
 
     def _read_sizes(
-        self, given: ControllerParameters, names: Mapping[str, tuple[str, ...]]
+        self, parameters: ControllerParameters, names: Mapping[str, tuple[str, ...]]
     ) -> Floats:
         """Return track between steering joints, wheel base, radius, and wheel offset [m]."""
         front, rear = names["front_wheel"], names["rear_wheel"]
         steering = names["front_steering"]
-        offset = given.number("wheel_steering_y_offset", 0.0)
-        if "track" in given:
-            track = given.number("track")
+        offset = parameters.number("wheel_steering_y_offset", 0.0)
+        if "track" in parameters:
+            track = parameters.number("track")
         else:
             track = wheel_distance(self.model, *steering) + 2.0 * offset
         track -= 2.0 * offset
-        if "wheel_base" in given:
-            length = given.number("wheel_base")
+        if "wheel_base" in parameters:
+            length = parameters.number("wheel_base")
         else:
             length = wheel_distance(self.model, steering[0], names["rear_steering"][0])
-        if "wheel_radius" in given:
-            radius = given.number("wheel_radius")
+        if "wheel_radius" in parameters:
+            radius = parameters.number("wheel_radius")
         else:
             radius = wheel_radius(self.model, front[0])
         if min(track, length, radius) <= 0.0:

@@ -47,9 +47,9 @@ class TrajectoryTolerances:
         )
 
 
-def _changed(bounds: Floats, given: Iterable[JointTolerance], joints: Sequence[str]) -> Floats:
+def _changed(bounds: Floats, changes: Iterable[JointTolerance], joints: Sequence[str]) -> Floats:
     changed = bounds.copy()
-    for each in given:
+    for each in changes:
         if each.name in joints:
             row = list(joints).index(each.name)
             wanted = (each.position, each.velocity, each.acceleration)

@@ -269,13 +269,13 @@ class JointTrajectoryController(Controller):
 
     # -- trajectories --------------------------------------------------------------------
 
-    def _receive(self, given: JointTrajectory, worlds: Worlds | None) -> None:
+    def _receive(self, trajectory: JointTrajectory, worlds: Worlds | None) -> None:
         """Follow a trajectory without a goal."""
         rows = self.rows(worlds)
-        self._take(given, rows, 0)
+        self._take(trajectory, rows, 0)
         self._preempt(rows, "another trajectory took its place")
 
-    def _take(self, given: JointTrajectory, rows: Worlds, goal: int) -> None:
+    def _take(self, trajectory: JointTrajectory, rows: Worlds, goal: int) -> None:
         """Follow a trajectory from the next update on.
 
         Raises:
@@ -284,18 +284,18 @@ class JointTrajectoryController(Controller):
         if not self.running:
             raise TrajectoryRefusedError(_NOT_RUNNING)
         # A goal must name the joints even if it has no points; what comes without a goal need not.
-        if given.points or goal:
-            joints = columns_of(given, self._names, partial=self._partial)
-        if not given.points:
+        if trajectory.points or goal:
+            joints = columns_of(trajectory, self._names, partial=self._partial)
+        if not trajectory.points:
             self._hold(rows)
             return
-        check_points(given, len(joints))
+        check_points(trajectory, len(joints))
         now = self._uptime + self._period
         begin = now
-        if given.stamp:
+        if trajectory.stamp:
             next_ns = self.now_ns + round(self._period / _SECOND)
-            begin = now + (given.stamp - next_ns) * _SECOND
-        points = waypoints(given, joints, begin, now, self.name)
+            begin = now + (trajectory.stamp - next_ns) * _SECOND
+        points = waypoints(trajectory, joints, begin, now, self.name)
         self._table.follow(points, now, begin, goal, rows)
 
     def _hold(self, rows: Worlds) -> None:

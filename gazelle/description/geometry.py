@@ -1,7 +1,7 @@
 """Shapes of collisions and visuals, each in its own frame, z up, lengths in metres.
 
-``given`` of a primitive shape is what a file says where that is not greater than zero and other
-lengths were taken, in the order of the attributes; a file that is written says it again.
+``file_lengths`` of a primitive shape are those of a file where one is not greater than zero and other
+lengths are simulated, in the order of the attributes; a saved file has them again.
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ class Empty:
     """No shape at all: the element is there, but nothing collides or shows.
 
     Attributes:
-        given: The sides of a box without size, if a file calls it that; else none.
+        file_lengths: The sides of a box without size in a file; else none.
     """
 
-    given: tuple[float, ...] = field(default=(), compare=False, repr=False)
+    file_lengths: tuple[float, ...] = field(default=(), compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,7 +30,7 @@ class Box:
     """A box centred at the origin; ``size`` is the full length along x, y, z [m]."""
 
     size: Vector3
-    given: tuple[float, ...] = field(default=(), compare=False, repr=False)
+    file_lengths: tuple[float, ...] = field(default=(), compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,7 +38,7 @@ class Sphere:
     """A sphere centred at the origin."""
 
     radius: float
-    given: tuple[float, ...] = field(default=(), compare=False, repr=False)
+    file_lengths: tuple[float, ...] = field(default=(), compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +47,7 @@ class Cylinder:
 
     radius: float
     length: float
-    given: tuple[float, ...] = field(default=(), compare=False, repr=False)
+    file_lengths: tuple[float, ...] = field(default=(), compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +56,7 @@ class Capsule:
 
     radius: float
     length: float
-    given: tuple[float, ...] = field(default=(), compare=False, repr=False)
+    file_lengths: tuple[float, ...] = field(default=(), compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +64,7 @@ class Ellipsoid:
     """An ellipsoid centred at the origin; ``radii`` along x, y, z [m]."""
 
     radii: Vector3
-    given: tuple[float, ...] = field(default=(), compare=False, repr=False)
+    file_lengths: tuple[float, ...] = field(default=(), compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +73,7 @@ class Cone:
 
     radius: float
     length: float
-    given: tuple[float, ...] = field(default=(), compare=False, repr=False)
+    file_lengths: tuple[float, ...] = field(default=(), compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)

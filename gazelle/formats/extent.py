@@ -33,16 +33,19 @@ def extent(node: Parameters, value: float, what: str, reading: Reading) -> float
     return taken
 
 
-def given(*lengths: float) -> tuple[float, ...]:
+def replaced(*lengths: float) -> tuple[float, ...]:
     """Return the lengths in a file, if others replace some of them; else none."""
     return () if all(length > 0.0 for length in lengths) else lengths
 
 
 def lengths(shape: Primitive) -> tuple[float, ...]:
-    """Return the lengths to write: those given, as long as the present ones follow from them."""
+    """Return the lengths to write: those of the file, as long as the present ones follow from them."""
     present = _present(shape)
-    follows = len(shape.given) == len(present) and tuple(map(_taken, shape.given)) == present
-    return shape.given if follows else present
+    follows = (
+        len(shape.file_lengths) == len(present)
+        and tuple(map(_taken, shape.file_lengths)) == present
+    )
+    return shape.file_lengths if follows else present
 
 
 def _present(shape: Primitive) -> tuple[float, ...]:

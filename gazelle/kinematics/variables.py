@@ -127,8 +127,8 @@ def bounds_of(joint: Joint) -> JointBounds:
     return JointBounds(lower, upper, velocity)
 
 
-def _number(given: Mapping[str, Any], name: str, default: float, joint: str) -> float:
-    value = given.get(name, default)
+def _number(entry: Mapping[str, Any], name: str, default: float, joint: str) -> float:
+    value = entry.get(name, default)
     number = real(value)
     if number is None or math.isnan(number):
         raise PlanningError(f"'{name}' of joint '{joint}' is a number, not {value!r:.60}")

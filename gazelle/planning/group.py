@@ -351,12 +351,12 @@ class Group:
         return MotionPlanner(self.scene, self.model, self.options)
 
 
-def _semantics(robot: Robot, given: Semantics | str | PathLike[str] | None) -> Semantics | None:
+def _semantics(robot: Robot, semantics: Semantics | str | PathLike[str] | None) -> Semantics | None:
     """Return the given SRDF, or that of the robot's MoveIt package, if there is one."""
-    if isinstance(given, Semantics):
-        return given
-    if given is not None:
-        return load_srdf(given)
+    if isinstance(semantics, Semantics):
+        return semantics
+    if semantics is not None:
+        return load_srdf(semantics)
     source = robot.description.source
     file = Path(source.file) if source is not None and source.file else None
     for name in dict.fromkeys((robot.description.name, robot.name)):

@@ -48,8 +48,8 @@ class Contain(WorldPlugin):
             absolute("", f"{namespace}/contain"), Flags, lambda: Flags(self._look())
         )
 
-    def _enable(self, wanted: bool, _worlds: Worlds | None) -> None:  # noqa: FBT001  what the topic says
-        self._enabled, self._published = wanted, None
+    def _enable(self, enabled: bool, _worlds: Worlds | None) -> None:  # noqa: FBT001  what the topic says
+        self._enabled, self._published = enabled, None
 
     @property
     def active(self) -> bool:

@@ -123,9 +123,9 @@ class Harness(ModelPlugin):
             ]
             self._pids["pos_pid"].reset(worlds)
 
-    def _let_go(self, wanted: bool, worlds: Worlds | None) -> None:  # noqa: FBT001  what the topic says
+    def _let_go(self, detach: bool, worlds: Worlds | None) -> None:  # noqa: FBT001  what the topic says
         """Detach the model for good, and stop the winch."""
-        if not wanted:
+        if not detach:
             return
         chosen = np.zeros(len(self._held), np.bool_)
         chosen[slice(None) if worlds is None else worlds] = True

@@ -88,8 +88,8 @@ class HectorGps(SampledOnBody):
         )
         self.reset(worlds)
 
-    def _set_status(self, wanted: Mapping[str, bool]) -> None:
-        self._status, self._service = status_of(wanted)
+    def _set_status(self, status: Mapping[str, bool]) -> None:
+        self._status, self._service = status_of(status)
 
     def _flags(self) -> dict[str, bool]:
         return flags_of(self._status, self._service)

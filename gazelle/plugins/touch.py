@@ -52,10 +52,10 @@ class Touch(ModelPlugin):
             event=True,
         )
 
-    def _enable(self, wanted: bool, worlds: Worlds | None) -> None:  # noqa: FBT001  what the topic says
+    def _enable(self, enabled: bool, worlds: Worlds | None) -> None:  # noqa: FBT001  what the topic says
         rows = slice(None) if worlds is None else worlds
-        self._enabled[rows] = wanted
-        if wanted:
+        self._enabled[rows] = enabled
+        if enabled:
             self._since[rows], self._touched[rows] = np.nan, False
 
     @property

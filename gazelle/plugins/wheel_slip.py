@@ -77,10 +77,10 @@ class WheelSlip(ModelPlugin):
             lambda: dict(self._tuned),
         )
 
-    def _tune(self, wanted: Mapping[str, Any]) -> None:
+    def _tune(self, changes: Mapping[str, Any]) -> None:
         """Set the compliances of all wheels; negative ones stay as they are."""
         for index, name in enumerate((_LATERAL, _LONGITUDINAL)):
-            self._tuned[name] = float(wanted[name])
+            self._tuned[name] = float(changes[name])
             if self._tuned[name] >= 0.0:
                 for wheel in self._wheels:
                     wheel.compliance[index] = self._tuned[name]

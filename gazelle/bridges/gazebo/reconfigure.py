@@ -64,7 +64,7 @@ class PhysicsReconfigure:
         )
         return {**values, **gravity, "sor_pgs_rms_error_tol": -1.0}
 
-    def _change(self, wanted: Mapping[str, Any]) -> None:
-        values = {ours: wanted[theirs] for theirs, ours in _NAMES.items()}
-        gravity = (wanted["gravity_x"], wanted["gravity_y"], wanted["gravity_z"])
+    def _change(self, changes: Mapping[str, Any]) -> None:
+        values = {ours: changes[theirs] for theirs, ours in _NAMES.items()}
+        gravity = (changes["gravity_x"], changes["gravity_y"], changes["gravity_z"])
         self._world.change_physics(gravity=gravity, **values)

@@ -75,24 +75,24 @@ def controllers_of(node: Node) -> dict[str, ActionController]:
     return found
 
 
-def _entry(given: Mapping[str, Any]) -> ActionController:
-    name, kind = str(given.get("name", "")), str(given.get("type", ""))
-    joints = given.get("joints")
+def _entry(entry: Mapping[str, Any]) -> ActionController:
+    name, kind = str(entry.get("name", "")), str(entry.get("type", ""))
+    joints = entry.get("joints")
     if not name or not isinstance(joints, list) or kind not in (TRAJECTORY, GRIPPER, *FAKE):
         raise PlanningError(
             f"the controller '{name}' of 'controller_list' has the type '{kind}' and the joints "
             f"{joints!r}",
             hint=f"name, type ({', '.join((TRAJECTORY, GRIPPER, *FAKE))}), action_ns and joints are needed",
         )
-    space = str(given.get("action_ns", ""))
+    space = str(entry.get("action_ns", ""))
     action = f"{name}/{space}" if space else name
-    effort = float(given.get("max_effort", 0.0))
+    effort = float(entry.get("max_effort", 0.0))
     names = tuple(map(str, joints))
-    commanded = names if given.get("parallel") else names[:1]
-    if given.get("command_joint") is not None:
-        commanded = (str(given["command_joint"]),)
+    commanded = names if entry.get("parallel") else names[:1]
+    if entry.get("command_joint") is not None:
+        commanded = (str(entry["command_joint"]),)
     return ActionController(
-        name, action, kind, names, effort, commanded, bool(given.get("allow_failure"))
+        name, action, kind, names, effort, commanded, bool(entry.get("allow_failure"))
     )
 
 

@@ -23,7 +23,7 @@ from gazelle.description import (
     Vector3,
 )
 from gazelle.formats import values
-from gazelle.formats.extent import extent, given
+from gazelle.formats.extent import extent, replaced
 from gazelle.formats.reading import Reading
 
 
@@ -57,7 +57,7 @@ def _round(kind: type[_ROUND], node: Parameters, usual: float, reading: Reading)
     return kind(
         extent(node, radius, "<radius>", reading),
         extent(node, length, "<length>", reading),
-        given=given(radius, length),
+        file_lengths=replaced(radius, length),
     )
 
 
@@ -65,19 +65,19 @@ def _sides(node: Parameters, path: str, reading: Reading) -> tuple[Vector3, tupl
     """Return the used lengths along x, y, z, and those in the file if they differ."""
     sides = values.vector(node, path, (1.0, 1.0, 1.0))
     x, y, z = (extent(node, side, f"<{path}>", reading) for side in sides)
-    return (x, y, z), given(*sides)
+    return (x, y, z), replaced(*sides)
 
 
 def read_box(node: Parameters, reading: Reading) -> Box:
     """Read ``<box><size>``."""
     sides, others = _sides(node, "size", reading)
-    return Box(sides, given=others)
+    return Box(sides, file_lengths=others)
 
 
 def read_sphere(node: Parameters, reading: Reading) -> Sphere:
     """Read ``<sphere><radius>``."""
     radius = values.real(node, "radius", 1.0)
-    return Sphere(extent(node, radius, "<radius>", reading), given=given(radius))
+    return Sphere(extent(node, radius, "<radius>", reading), file_lengths=replaced(radius))
 
 
 def read_cylinder(node: Parameters, reading: Reading) -> Cylinder:
@@ -98,7 +98,7 @@ def read_cone(node: Parameters, reading: Reading) -> Cone:
 def read_ellipsoid(node: Parameters, reading: Reading) -> Ellipsoid:
     """Read ``<ellipsoid><radii>``."""
     radii, others = _sides(node, "radii", reading)
-    return Ellipsoid(radii, given=others)
+    return Ellipsoid(radii, file_lengths=others)
 
 
 def read_plane(node: Parameters, _: Reading) -> Plane:

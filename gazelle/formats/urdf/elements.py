@@ -24,7 +24,7 @@ from gazelle.description import (
 )
 from gazelle.errors import FormatError, did_you_mean
 from gazelle.formats import values
-from gazelle.formats.extent import extent, given
+from gazelle.formats.extent import extent, replaced
 from gazelle.formats.reading import Reading
 
 _MOMENTS = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
@@ -101,7 +101,7 @@ def _round(kind: type[_ROUND], node: Parameters, reading: Reading) -> _ROUND:
     return kind(
         extent(node, radius, "the radius", reading),
         extent(node, length, "the length", reading),
-        given=given(radius, length),
+        file_lengths=replaced(radius, length),
     )
 
 
@@ -110,15 +110,15 @@ def read_box(node: Parameters, reading: Reading) -> Box | Empty:
     sides = values.parse_reals(node, values.attribute(node, "size"), "attribute 'size'", 3)
     if not any(sides):
         reading.note("a box without size is left out", node)
-        return Empty(given=sides)
+        return Empty(file_lengths=sides)
     x, y, z = (extent(node, side, "the size of a box", reading) for side in sides)
-    return Box((x, y, z), given=given(*sides))
+    return Box((x, y, z), file_lengths=replaced(*sides))
 
 
 def read_sphere(node: Parameters, reading: Reading) -> Sphere:
     """Read ``<sphere radius>``."""
     radius = values.attribute_real(node, "radius")
-    return Sphere(extent(node, radius, "the radius", reading), given=given(radius))
+    return Sphere(extent(node, radius, "the radius", reading), file_lengths=replaced(radius))
 
 
 def read_cylinder(node: Parameters, reading: Reading) -> Cylinder:

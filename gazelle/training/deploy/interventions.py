@@ -58,7 +58,7 @@ class InterventionLog:
                 now,
                 reason=cause,
                 detail=tick.reason,
-                wanted=_pair(tick.wanted),
+                wanted=_pair(tick.policy_command),
                 given=_pair(tick.command),
             )
 

@@ -45,7 +45,7 @@ class Tick:
     """Command to the robot."""
     active: bool
     """True if the pilot is in control; if not, others may drive."""
-    wanted: VelocityCommand = STAND
+    policy_command: VelocityCommand = STAND
     """Command of the policy."""
     reason: str | None = None
     """Why the command is not what the policy wants; None where it is."""
@@ -100,7 +100,7 @@ class Pilot:
         self._began: float | None = None
         self._distance: float | None = None
         self._score = 0.0
-        self._wanted = STAND
+        self._policy_command = STAND
         self._acted_at = -math.inf
         self._fresh = self._touching = False
 
@@ -157,9 +157,9 @@ class Pilot:
         if fault is None and place is None:
             fault = f"no transform from the goal's frame '{self.goal.frame}'"
         if fault is not None or place is None or self._scan is None or self._odometry is None:
-            wanted, self._wanted = self._wanted, STAND
+            last, self._policy_command = self._policy_command, STAND
             self._acted_at = -math.inf
-            return Tick(STAND, active=True, wanted=wanted, reason=fault)
+            return Tick(STAND, active=True, policy_command=last, reason=fault)
         return self._drive(now, place, self._scan[1], self._odometry[1])
 
     def _drive(
@@ -174,12 +174,14 @@ class Pilot:
                 # What follows is another goal, or nothing to do.
                 return Tick(STAND, active=self.goal is not None, ended=ended)
             acted = self._act(now, place, scan, odometry)
-        given = self.limits.limited(self._wanted)
-        reason = None if given == self._wanted else "limit"
-        nearest = self.limits.blocked(given, scan, turned=self._turned)
+        command = self.limits.limited(self._policy_command)
+        reason = None if command == self._policy_command else "limit"
+        nearest = self.limits.blocked(command, scan, turned=self._turned)
         if nearest is not None:
-            given, reason = VelocityCommand(0.0, given.angular), f"obstacle at {nearest:.2f} m"
-        return Tick(given, active=True, wanted=self._wanted, reason=reason, acted=acted)
+            command, reason = VelocityCommand(0.0, command.angular), f"obstacle at {nearest:.2f} m"
+        return Tick(
+            command, active=True, policy_command=self._policy_command, reason=reason, acted=acted
+        )
 
     def _act(
         self, now: float, place: tuple[float, float], scan: ScanReading, odometry: OdometryReading
@@ -188,7 +190,7 @@ class Pilot:
         distance = distance_to_goal(odometry, place)
         gain = 0.0 if self._distance is None else self._distance - distance
         self._score += gain
-        self._distance, self._acted_at, self._wanted = distance, now, decision.command
+        self._distance, self._acted_at, self._policy_command = distance, now, decision.command
         return Acted(decision, gain, self._score)
 
     def _judge(
@@ -230,7 +232,7 @@ class Pilot:
 
     def _halt(self) -> None:
         """Set a zero command, and discard the history of actions."""
-        self._wanted = STAND
+        self._policy_command = STAND
         self._acted_at = -math.inf
         self._began = self._distance = None
         self._score = 0.0

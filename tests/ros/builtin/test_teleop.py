@@ -232,14 +232,14 @@ def test_speeds_stay_within_the_models_limits(model, keys):
         last = sent
     for _ in range(200):
         drive.advance()
-    assert drive.sent == drive.wanted
+    assert drive.sent == drive.target
 
 
 def test_opposite_keys_lead_back_to_rest():
     drive = StepwiseDrive(LIMITS["burger"])
     for key in "w" * 7 + "x" * 7 + "a" * 3 + "d" * 3:
         assert drive.press(key)
-    assert drive.wanted == (0.0, 0.0)
+    assert drive.target == (0.0, 0.0)
     assert not drive.press("?")
 
 

@@ -101,7 +101,7 @@ def test_an_obstacle_ahead_stops_it_whatever_the_policy_wants(pilot, angle):
     pilot.see(scan(ranges), 10.1)
     tick = pilot.tick(10.1, (3.0, 0.0))
     assert tick.command == VelocityCommand(0.0, 0.0)
-    assert tick.wanted == VelocityCommand(0.15, 0.0)
+    assert tick.policy_command == VelocityCommand(0.15, 0.0)
     assert tick.reason == "obstacle at 0.19 m"
 
 

@@ -40,7 +40,9 @@ def write_geometry(shape: Geometry, writing: Writing) -> Parameters:
 
 
 def _empty(shape: Empty, _: Writing) -> list[Parameters]:
-    return [element("box", leaf("size", shape.given)) if shape.given else element("empty")]
+    return [
+        element("box", leaf("size", shape.file_lengths)) if shape.file_lengths else element("empty")
+    ]
 
 
 def _box(shape: Box, _: Writing) -> list[Parameters]:

@@ -66,7 +66,7 @@ def visuals_of(link: Link) -> list[Visual]:
 
 def _has_words(shape: Geometry) -> bool:
     """Return whether URDF can express the shape."""
-    return bool(shape.given) if isinstance(shape, Empty) else type(shape) in SHAPES
+    return bool(shape.file_lengths) if isinstance(shape, Empty) else type(shape) in SHAPES
 
 
 def surfaces(link: Link) -> list[list[Collision]]:
@@ -249,7 +249,7 @@ SHAPES: dict[type, Callable[[Any, Writing], Parameters]] = {
     Box: lambda shape, _: element("box", size=written(lengths(shape))),
     Capsule: _round,
     Cylinder: _round,
-    Empty: lambda shape, _: element("box", size=written(shape.given)),
+    Empty: lambda shape, _: element("box", size=written(shape.file_lengths)),
     Mesh: _mesh,
     Sphere: lambda shape, _: element("sphere", radius=written(*lengths(shape))),
 }

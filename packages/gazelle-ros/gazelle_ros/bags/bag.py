@@ -308,11 +308,11 @@ class Bag(Closeable):
         connections = self.index.connections.values()
         return {each.id for each in connections if each.topic.lstrip("/") in plain}
 
-    def _filtered(self, wanted: set[int] | None, keep: ConnectionFilter) -> set[int]:
+    def _filtered(self, connections: set[int] | None, keep: ConnectionFilter) -> set[int]:
         return {
             each.id
             for each in self.index.connections.values()
-            if (wanted is None or each.id in wanted)
+            if (connections is None or each.id in connections)
             and keep(
                 each.topic,
                 each.type,

@@ -145,13 +145,13 @@ def _means(image: Pixels, height: int, width: int) -> Pixels:
     return _as_type(means, image.dtype)
 
 
-def _shares(count: int, wanted: int) -> Floats:
+def _shares(count: int, size: int) -> Floats:
     """Return the share of each pixel in those that cover it, shape (wanted, count)."""
-    edges = np.arange(wanted + 1) * (count / wanted)
+    edges = np.arange(size + 1) * (count / size)
     pixels = np.arange(count)
     low = np.maximum(edges[:-1, None], pixels)
     high = np.minimum(edges[1:, None], pixels + 1.0)
-    shares: Floats = np.maximum(high - low, 0.0) * (wanted / count)
+    shares: Floats = np.maximum(high - low, 0.0) * (size / count)
     return shares
 
 

@@ -85,8 +85,8 @@ def mux_input(where: str, entry: Any, *, highest: int, ignored: Collection[str] 
     return MuxInput(name, topic, timeout, clamped)
 
 
-def _number(where: str, key: str, given: Any) -> float:
-    number = finite(given)
+def _number(where: str, key: str, value: Any) -> float:
+    number = finite(value)
     if number is None:
-        raise RosError(f"the {key} of {where} is a number, not {given!r:.60}")
+        raise RosError(f"the {key} of {where} is a number, not {value!r:.60}")
     return number

@@ -37,7 +37,7 @@ class OnDemandOutputs:
         self._look("")  # one may have connected before there were all publishers
 
     @property
-    def wanted(self) -> list[bool]:
+    def subscribed(self) -> list[bool]:
         """Topics that have subscribers, in their order."""
         return [each.has_subscribers for each in self._publishers]
 

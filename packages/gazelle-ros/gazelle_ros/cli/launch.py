@@ -140,11 +140,13 @@ def _load(args: argparse.Namespace, packages: Packages) -> LaunchPlan:
 
 
 def _arguments_only(
-    words: list[str], given: dict[str, str], packages: Packages, parser: Any
+    words: list[str], arguments: dict[str, str], packages: Packages, parser: Any
 ) -> LaunchPlan:
     from gazelle_ros.launch.loader import declared_arguments
 
-    plan: LaunchPlan = declared_arguments(_files(words, packages, parser), given, packages=packages)
+    plan: LaunchPlan = declared_arguments(
+        _files(words, packages, parser), arguments, packages=packages
+    )
     return plan
 
 

@@ -182,17 +182,17 @@ class _SetupReader:
             return os.path.join(*given) if given else _UNKNOWN  # noqa: PTH118  # text to text
         return given[0] if name in _COPIES and len(given) == 1 else _UNKNOWN
 
-    def _update(self, target: ast.expr, given: list[Any], keywords: dict[str, Any]) -> None:
+    def _update(self, target: ast.expr, values: list[Any], keywords: dict[str, Any]) -> None:
         known = self.value(target)
         if isinstance(known, dict):
-            for each in (*given, keywords):
+            for each in (*values, keywords):
                 known |= each if isinstance(each, dict) else {}
 
-    def _find_packages(self, given: list[Any], keywords: dict[str, Any]) -> Any:
+    def _find_packages(self, arguments: list[Any], keywords: dict[str, Any]) -> Any:
         """Return what setuptools finds: folders with an ``__init__.py``, and those in them."""
-        where = given[0] if given else keywords.get("where", ".")
-        without = given[1] if len(given) > 1 else keywords.get("exclude", [])
-        only = given[2] if len(given) > 2 else keywords.get("include", ["*"])
+        where = arguments[0] if arguments else keywords.get("where", ".")
+        without = arguments[1] if len(arguments) > 1 else keywords.get("exclude", [])
+        only = arguments[2] if len(arguments) > 2 else keywords.get("include", ["*"])
         if not isinstance(where, str) or _UNKNOWN in (without, only):
             return _UNKNOWN
         return [

@@ -131,14 +131,14 @@ def _numpy_bytes(value: Any, base: str) -> bytes:
     return data
 
 
-def _check_unlike(given: Any, wanted: Any) -> None:
+def _check_unlike(value: Any, expected: Any) -> None:
     """Check that kinds are compatible: integers of either sign are, and bools with numbers.
 
     Raises:
         TypeError: The kinds are too far apart.
     """
-    if not (given.dtype.kind in "iub" and wanted.kind in "iub"):
-        raise TypeError(f"an array of {given.dtype} cannot be sent as {wanted}")
+    if not (value.dtype.kind in "iub" and expected.kind in "iub"):
+        raise TypeError(f"an array of {value.dtype} cannot be sent as {expected}")
 
 
 def view(data: bytes, base: str, count: int, offset: int) -> Any:

@@ -68,8 +68,8 @@ class OperationFields:
         return value
 
     @staticmethod
-    def _misfit(name: str, wanted: str, value: Any) -> RosError:
+    def _misfit(name: str, expected: str, value: Any) -> RosError:
         return RosError(
-            f"Expected field {name} to be a {wanted}, but got a {type(value).__name__}: "
+            f"Expected field {name} to be a {expected}, but got a {type(value).__name__}: "
             f"{str(value)[:60]}"
         )

@@ -178,11 +178,11 @@ class _Filler:
             )
         return bytes(found) if base in OCTETS else found
 
-    def _decoded(self, wanted: str, value: str, path: tuple[str, ...]) -> bytes:
+    def _decoded(self, type_name: str, value: str, path: tuple[str, ...]) -> bytes:
         try:
             return base64.b64decode(value, validate=True)
         except (binascii.Error, ValueError):
-            raise self._misfit(path, f"{wanted} as base64 or list", value) from None
+            raise self._misfit(path, f"{type_name} as base64 or list", value) from None
 
     def _float(self, base: str, value: Any, path: tuple[str, ...]) -> float:
         if value is None:
@@ -222,14 +222,14 @@ class _Filler:
         made: Any = Time(*parts) if base == "time" else Duration(*parts)
         return made
 
-    def _misfit(self, path: tuple[str, ...], wanted: str, value: Any) -> MessageException:
+    def _misfit(self, path: tuple[str, ...], expected: str, value: Any) -> MessageException:
         if not path:
             return MessageException(
                 f"Expected a JSON object for type {self._root} but received a "
                 f"{type(value).__name__}"
             )
         return MessageException(
-            f"{self._root} message requires a {wanted} for field {'.'.join(path)}, "
+            f"{self._root} message requires a {expected} for field {'.'.join(path)}, "
             f"but got a {type(value).__name__}: {str(value)[:60]}"
         )
 

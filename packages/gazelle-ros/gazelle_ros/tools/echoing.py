@@ -183,11 +183,11 @@ def echo_bag(
                 writer.write(each.message, each.timestamp, where)
 
 
-def _within(topic: str, wanted: str | None) -> list[FieldAccess] | None:
+def _within(topic: str, path: str | None) -> list[FieldAccess] | None:
     """Return the steps from a topic to a wanted field; None if it is another topic."""
-    if wanted is None or topic == wanted:
+    if path is None or topic == path:
         return []
-    return parse_path(wanted[len(topic) :]) if wanted.startswith(topic + "/") else None
+    return parse_path(path[len(topic) :]) if path.startswith(topic + "/") else None
 
 
 def filter_of(expression: str) -> Callable[[Message], bool]:

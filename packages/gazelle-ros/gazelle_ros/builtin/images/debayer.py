@@ -51,12 +51,14 @@ class Debayer(ImageConversion):
             node,
             [("image_raw", _IMAGE)],
             [("image_mono", _IMAGE), ("image_color", _IMAGE)],
-            self._convert_wanted,
+            self._convert_subscribed,
             queue_size=settings.queue_size,
         )
 
-    def _convert_wanted(self, image: sensor_msgs.msg.Image) -> list[sensor_msgs.msg.Image | None]:
-        mono, colour = self.outputs.wanted
+    def _convert_subscribed(
+        self, image: sensor_msgs.msg.Image
+    ) -> list[sensor_msgs.msg.Image | None]:
+        mono, colour = self.outputs.subscribed
         return [mono_image(image) if mono else None, colour_image(image) if colour else None]
 
 

@@ -125,5 +125,5 @@ def _rows(across: float, down: float, columns: int) -> list[float]:
     return [across] * columns + [down] * columns + [1.0] * columns
 
 
-def _chosen(wanted: int, there: int) -> int:
-    return there if wanted < 0 else wanted
+def _chosen(size: int, there: int) -> int:
+    return there if size < 0 else size

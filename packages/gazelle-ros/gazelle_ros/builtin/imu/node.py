@@ -324,12 +324,12 @@ def complementary_main(arguments: Sequence[str]) -> int:
     return run_node(arguments, "ComplementaryFilterROS", ComplementaryNode)
 
 
-def _vector(given: Any) -> Vector:
-    return (given.x, given.y, given.z)
+def _vector(value: Any) -> Vector:
+    return (value.x, value.y, value.z)
 
 
-def _quaternion(given: Quaternion) -> geometry_msgs.msg.Quaternion:
-    return geometry_msgs.msg.Quaternion(*given)
+def _quaternion(value: Quaternion) -> geometry_msgs.msg.Quaternion:
+    return geometry_msgs.msg.Quaternion(*value)
 
 
 def _diagonal(deviation: float) -> list[float]:

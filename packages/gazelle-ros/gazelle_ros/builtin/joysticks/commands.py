@@ -212,10 +212,10 @@ def service_command(
     return RequestCommand(name, match, send)
 
 
-def _needed(name: str, given: Any, key: str) -> Any:
-    if not isinstance(given, Mapping) or key not in given:
-        raise RosError(f"the command '{name}' has no '{key}' in {given!r:.60}")
-    return given[key]
+def _needed(name: str, parameters: Any, key: str) -> Any:
+    if not isinstance(parameters, Mapping) or key not in parameters:
+        raise RosError(f"the command '{name}' has no '{key}' in {parameters!r:.60}")
+    return parameters[key]
 
 
 def _field_of(message: Any, path: str) -> tuple[Any, str]:

@@ -67,20 +67,22 @@ def main(arguments: Sequence[str]) -> int:
     return run_node(arguments, "joy_teleop", JoyTeleop)
 
 
-def _command(node: Node, name: str, given: Any) -> ButtonCommand:
-    if not isinstance(given, Mapping):
-        raise RosError(f"it is a mapping of names to values, not {given!r:.60}")
-    kind = str(given.get("type", ""))
+def _command(node: Node, name: str, parameters: Any) -> ButtonCommand:
+    if not isinstance(parameters, Mapping):
+        raise RosError(f"it is a mapping of names to values, not {parameters!r:.60}")
+    kind = str(parameters.get("type", ""))
     if kind not in _KINDS:
         raise RosError(f"its type is '{kind}'", hint=did_you_mean(kind, _KINDS))
     known = ("type", "allow_multiple_commands", *_KEYS[kind])
-    for key in given:
+    for key in parameters:
         if key not in known:
             _LOG.warning(
                 "the command '%s' has an unknown '%s'; %s", name, key, did_you_mean(key, known)
             )
-    buttons = given.get("deadman_buttons", []) if kind == "topic" else given.get("buttons")
+    buttons = (
+        parameters.get("deadman_buttons", []) if kind == "topic" else parameters.get("buttons")
+    )
     if not isinstance(buttons, list) or any(type(each) is not int for each in buttons):
         raise RosError(f"its buttons are a list of numbers, not {buttons!r:.60}")
-    match = ButtonMatch(buttons, bool(given.get("allow_multiple_commands", True)))
-    return _KINDS[kind](node, name, match, given)
+    match = ButtonMatch(buttons, bool(parameters.get("allow_multiple_commands", True)))
+    return _KINDS[kind](node, name, match, parameters)

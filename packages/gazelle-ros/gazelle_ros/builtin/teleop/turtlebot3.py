@@ -36,12 +36,12 @@ class StepwiseDrive:
 
     Attributes:
         limits: Greatest speeds [m/s, rad/s].
-        wanted: Speeds that were asked for.
-        sent: Speeds that are sent now.
+        target: Speeds of the keys.
+        sent: Speeds of the last command.
     """
 
     limits: tuple[float, float]
-    wanted: tuple[float, float] = (0.0, 0.0)
+    target: tuple[float, float] = (0.0, 0.0)
     sent: tuple[float, float] = (0.0, 0.0)
 
     def press(self, key: str) -> bool:
@@ -49,18 +49,18 @@ class StepwiseDrive:
         forwards = {"w": 1, UP: 1, "x": -1, DOWN: -1}.get(key, 0)
         left = {"a": 1, LEFT: 1, "d": -1, RIGHT: -1}.get(key, 0)
         if key in {"s", " "}:
-            self.wanted = self.sent = (0.0, 0.0)
+            self.target = self.sent = (0.0, 0.0)
             return True
-        linear = self.wanted[0] + forwards * _LINEAR_STEP
-        angular = self.wanted[1] + left * _ANGULAR_STEP
-        self.wanted = (_bounded(linear, self.limits[0]), _bounded(angular, self.limits[1]))
+        linear = self.target[0] + forwards * _LINEAR_STEP
+        angular = self.target[1] + left * _ANGULAR_STEP
+        self.target = (_bounded(linear, self.limits[0]), _bounded(angular, self.limits[1]))
         return bool(forwards or left)
 
     def advance(self) -> tuple[float, float]:
         """Advance the command towards its target; returns the command."""
         self.sent = (
-            _towards(self.sent[0], self.wanted[0], _LINEAR_STEP / 2.0),
-            _towards(self.sent[1], self.wanted[1], _ANGULAR_STEP / 2.0),
+            _towards(self.sent[0], self.target[0], _LINEAR_STEP / 2.0),
+            _towards(self.sent[1], self.target[1], _ANGULAR_STEP / 2.0),
         )
         return self.sent
 
@@ -88,7 +88,7 @@ def main(arguments: Sequence[str]) -> int:
                     break
                 known = [drive.press(key) for key in keys]
                 if any(known):
-                    say("wanted: {:.2f} m/s, {:.2f} rad/s\n".format(*drive.wanted))
+                    say("target: {:.2f} m/s, {:.2f} rad/s\n".format(*drive.target))
                 publisher.publish(_message(twist, *drive.advance()))
         finally:
             if not node.closed:
@@ -109,5 +109,5 @@ def _bounded(value: float, limit: float) -> float:
     return round(min(max(value, -limit), limit), 6)
 
 
-def _towards(now: float, wanted: float, step: float) -> float:
-    return min(now + step, wanted) if wanted > now else max(now - step, wanted)
+def _towards(now: float, target: float, step: float) -> float:
+    return min(now + step, target) if target > now else max(now - step, target)

@@ -86,15 +86,15 @@ class Server:
     def _described(self) -> list[dict[str, Any]]:
         return extract_params(self.type.config_description)
 
-    def _level(self, wanted: Config) -> int:
+    def _level(self, config: Config) -> int:
         level = 0
         for each in self._described():
-            if wanted[each["name"]] != self.config[each["name"]]:
+            if config[each["name"]] != self.config[each["name"]]:
                 level |= each["level"]
         return level
 
-    def _change(self, wanted: Config, level: int) -> Config:
-        taken = self.callback(wanted, level)
+    def _change(self, config: Config, level: int) -> Config:
+        taken = self.callback(config, level)
         if taken is None:
             raise DynamicReconfigureCallbackException(
                 "the callback returned None; it must return the values to take"
