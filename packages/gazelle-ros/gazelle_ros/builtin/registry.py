@@ -75,6 +75,9 @@ _OWN = {
         BuiltinPackage("imu_filter_madgwick", {
             "imu_filter_node": "gazelle_ros.builtin.imu.node:madgwick_main",
         }, {"ImuFilterNodelet": "gazelle_ros.builtin.imu.node:MadgwickNode"}),
+        BuiltinPackage("interactive_marker_twist_server", {
+            "marker_server": "gazelle_ros.builtin.twist_marker_server:main",
+        }),
         BuiltinPackage("joint_state_publisher", {
             "joint_state_publisher": "gazelle_ros.builtin.robot:joint_main",
         }),
