@@ -19,8 +19,11 @@ from gazelle.viewer.page.camera_insets import CameraInsets
 from gazelle.viewer.page.context import ROOT, OptionalLayer, PageContext, PageLayer, spots_of
 from gazelle.viewer.page.driving import DriveControls
 from gazelle.viewer.page.entity_tree import EntityTree
+from gazelle.viewer.page.frustum_layer import FrustumLayer
 from gazelle.viewer.page.goal_layer import GoalLayer, GoalPlaces
+from gazelle.viewer.page.joint_axis_layer import JointAxisLayer
 from gazelle.viewer.page.joint_sliders import JointSliders
+from gazelle.viewer.page.mass_layers import MassLayer
 from gazelle.viewer.page.model_tools import ModelTools
 from gazelle.viewer.page.motion_layer import MotionLayer
 from gazelle.viewer.page.overlays import ContactLayer, FrameLayer, NameLayer, RayLayer
@@ -31,7 +34,7 @@ from gazelle.viewer.page.run_controls import RunControls
 from gazelle.viewer.page.selection_box import SelectionBox
 from gazelle.viewer.page.server import PageServer
 from gazelle.viewer.page.shapes import extent_of_world
-from gazelle.viewer.page.world_layer import ShapeLayer
+from gazelle.viewer.page.world_layer import LOOKS, ShapeLayer
 from gazelle.viewer.scene_camera import distance_to_see
 from gazelle_ros.base.closing import Closeable
 
@@ -149,18 +152,27 @@ class LiveView(Closeable):
             left.dock_left()
             left.set_width(_LEFT)
             motions = MotionLayer(context)
+            frames, axes = FrameLayer(context), JointAxisLayer(context)
+            masses, inertias = MassLayer(context), MassLayer(context, boxes=True)
+            shapes.veils = (frames, axes, masses, inertias)
             self._optional: dict[str, OptionalLayer] = {
-                "Collision shapes": ShapeLayer(context, "solid", collisions=True, shown=False),
                 "Names": NameLayer(context),
-                "Frames and joints": FrameLayer(context),
+                "Collisions": ShapeLayer(context, "solid", collisions=True, shown=False),
+                "Frames": frames,
+                "Joint axes": axes,
+                "Masses": masses,
+                "Inertias": inertias,
                 "Contacts": ContactLayer(context),
+                "Forces": ContactLayer(context, forces=True),
                 "Lidar rays": RayLayer(context),
-                "Plans and goals": PlanLayer(context),
-                "Planned motions": motions,
-                "Camera pictures": CameraInsets(context),
+                "Frusta": FrustumLayer(context),
+                "Cameras": CameraInsets(context),
+                "Plans": PlanLayer(context),
+                "Motions": motions,
             }
             if self._goals is not None:
-                self._optional["Goals of the task"] = GoalLayer(context, self._goals)
+                self._optional["Task goals"] = GoalLayer(context, self._goals)
+            self._shapes = shapes
             self._plots = PlotLayer(context)
             self._offer()
             self._layers: tuple[PageLayer, ...] = (
@@ -180,14 +192,19 @@ class LiveView(Closeable):
         """Add a checkbox for each optional layer."""
         gui, scene = self._context.gui, self._context.scene
         with gui.add_folder("Show"):
+            surfaces: Any = gui.add_dropdown("Surfaces", LOOKS)
             for label, layer in self._optional.items():
                 box = gui.add_checkbox(label, initial_value=layer.shown)
                 box.on_update(_switch(layer))
             shadows = gui.add_checkbox("Shadows", initial_value=True)
 
+        def dress() -> None:
+            self._shapes.look = surfaces.value
+
         def shade(event: Any) -> None:
             scene.configure_default_lights(cast_shadow=event.target.value)
 
+        self._context.on_user_change(surfaces, dress)
         shadows.on_update(shade)
 
     def _look_from(self, spots: Any) -> None:

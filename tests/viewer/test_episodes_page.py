@@ -22,7 +22,7 @@ def seen(monkeypatch):
         if left == 1:
             pace._page._view._picture()
             view, text = pace._page._view, pace._page._panel._shown.content
-            goals = view._optional["Goals of the task"]._marks.batched_positions
+            goals = view._optional["Task goals"]._marks.batched_positions
             shown.append((int(view._context.worlds[0]), text, goals[:, :2].copy()))
         wait(pace, left)
 

@@ -479,7 +479,7 @@ def test_goals_and_the_ways_there_are_shown():
     with Simulation("turtlebot3_world", "planar", nworld=2, time_step=0.02) as simulation:
         robot = simulation.spawn("turtlebot3_burger", name="burger", pose=Pose(-2.0, -0.5))
         with LiveView(simulation) as view:
-            layer = view._optional["Plans and goals"]
+            layer = view._optional["Plans"]
             assert layer.shown
             lines, arrows = layer.read()
             assert len(lines) == len(arrows) == 0

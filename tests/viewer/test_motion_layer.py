@@ -52,7 +52,7 @@ def planar(pan, elbow):
 
 
 def motion_layer(view):
-    return view._optional["Planned motions"]
+    return view._optional["Motions"]
 
 
 def pictured(view):

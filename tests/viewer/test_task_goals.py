@@ -24,7 +24,7 @@ def made(task, copies, **options):
 def shown(view):
     """Return the places of marks after one picture, shape (n, 3)."""
     view._picture()
-    return view._optional["Goals of the task"]._marks.batched_positions.copy()
+    return view._optional["Task goals"]._marks.batched_positions.copy()
 
 
 def viewed(env, **options):
@@ -72,9 +72,9 @@ def test_each_vehicle_of_a_hall_has_a_goal_and_a_new_one_moves_the_mark():
         env.step(env.action_space.sample())
         changed = np.any(shown(view) != marks, axis=1)
         assert changed.tolist() == [False, True, False, False]
-        view._optional["Goals of the task"].shown = False
+        view._optional["Task goals"].shown = False
         view._picture()
-        assert view._optional["Goals of the task"]._marks is None
+        assert view._optional["Task goals"]._marks is None
     env.close()
 
 
@@ -98,5 +98,5 @@ def test_a_task_without_goals_has_nothing_to_draw():
     env = made("CartPoleStayUp", 1)
     with viewed(env) as view:
         view._picture()
-        assert view._optional["Goals of the task"]._marks is None
+        assert view._optional["Task goals"]._marks is None
     env.close()

@@ -89,7 +89,7 @@ def test_all_kinds_of_parts_have_rows_and_properties(shown):
     for kind, name, text in (
         ("link", "lamp::arm", "Position [m]"),
         ("joint", "lamp::hinge", "revolute"),
-        ("sensor", "lamp::arm::scan", "0.1 to 5 m"),
+        ("sensor", "lamp::arm::scan", "0.1 to 1.5 m"),
         ("sensor", "lamp::arm::eye", "64 x 48"),
         ("light", "bulb", "point"),
         ("world", "room", "mujoco"),

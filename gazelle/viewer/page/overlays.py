@@ -1,4 +1,4 @@
-"""Overlays of a world: names, frames, joints, contacts, rays of lidars."""
+"""Overlays of a world: names, frames, contacts, rays of lidars."""
 
 from __future__ import annotations
 
@@ -8,18 +8,19 @@ from typing import Any
 import numpy as np
 
 from gazelle.array_types import Floats
-from gazelle.description import Model, Pose
 from gazelle.engines.planar import PlanarEngine
 from gazelle.errors import EngineError
 from gazelle.rotations import rotate
 from gazelle.sensors import LidarModel
 from gazelle.viewer.page.context import ROOT, PageContext
+from gazelle.viewer.page.link_places import LinkPlaces
 
 _NAMES = 200  # models beyond which names are not shown
 _RAYS = 20_000  # of all lidars together, drawn at most
 _FRAMES = 2000
 _CONTACTS = 2000
-_IDENTITY = np.array([1.0, 0.0, 0.0, 0.0])
+_NORMAL = 0.15  # length of an arrow [m]
+_RED, _BLUE = (210, 40, 40), (30, 90, 220)
 
 
 class NameLayer:
@@ -57,7 +58,7 @@ class NameLayer:
 
 
 class FrameLayer:
-    """Axes of all links, and the axes of joints as arrows.
+    """Axes of all links: x red, y green, z blue.
 
     Args:
         context: Of the page.
@@ -66,84 +67,47 @@ class FrameLayer:
     def __init__(self, context: PageContext) -> None:
         self._context, self.shown = context, False
         self._axes: Any = None
-        self._arrows: Any = None
-        self._links: tuple[str, ...] = ()
-        self._joints: list[tuple[int, Pose, Floats]] = []
         self.renew()
 
     def read(self) -> tuple[Floats, Floats] | None:
-        """Return places of the links in the first visible world, (links, 3) and (links, 4)."""
-        if not self.shown:
+        """Return places of the links, (n, 3) and (n, 4)."""
+        if not self.shown or not self._places.links:
             return None
-        first = self._context.worlds[:1]
-        place = self._context.simulation.engine.links[self._links].placement(first)
-        return place.position[0], place.quaternion[0]
+        at, turned = self._places.read(self._context.worlds)
+        return (at + self._context.spots[:, None]).reshape(-1, 3), turned.reshape(-1, 4)
 
     def show(self, state: tuple[Floats, Floats] | None) -> None:
         """Draw the frames."""
-        for handle in (self._axes, self._arrows):
-            if handle is not None:
-                handle.visible = state is not None
-        if state is None or not len(state[0]):
+        if self._axes is not None:
+            self._axes.visible = state is not None
+        if state is None:
             return
-        at, turned = state[0] + self._context.spots[0], state[1]
+        at, turned = state[0].astype(np.float32), state[1][:, [3, 0, 1, 2]].astype(np.float32)
         if self._axes is None:
             self._axes = self._context.scene.add_batched_axes(
-                f"{ROOT}/frames",
-                np.tile(_IDENTITY, (len(at), 1)),
-                at,
-                axes_length=0.15,
-                axes_radius=0.006,
+                f"{ROOT}/frames", turned, at, axes_length=0.15, axes_radius=0.006
             )
-        self._axes.batched_positions = at.astype(np.float32)
-        self._axes.batched_wxyzs = turned[:, [3, 0, 1, 2]].astype(np.float32)
-        self._point(at, turned)
+        self._axes.batched_positions, self._axes.batched_wxyzs = at, turned
 
     def renew(self) -> None:
         """List the links again."""
-        for handle in (self._axes, self._arrows):
-            if handle is not None:
-                handle.remove()
-        self._axes = self._arrows = None
+        if self._axes is not None:
+            self._axes.remove()
+            self._axes = None
         simulation = self._context.simulation
-        self._links = tuple(simulation.engine.links.names[:_FRAMES])
-        numbers = {link: number for number, link in enumerate(self._links)}
-        moving = set(simulation.engine.joints.names)
-        self._joints = [
-            (numbers[child], pose, axis)
-            for model in simulation.world.models
-            for name, child, pose, axis in _axes_of(model)
-            if name in moving and child in numbers
-        ]
-
-    def _point(self, at: Floats, turned: Floats) -> None:
-        if not self._joints:
-            return
-        lines = np.empty((len(self._joints), 2, 3))
-        for row, (link, pose, axis) in zip(lines, self._joints, strict=True):
-            row[0] = at[link] + rotate(turned[link], np.asarray(pose.position))
-            row[1] = row[0] + 0.2 * rotate(turned[link], np.asarray(pose.rotate(tuple(axis))))
-        if self._arrows is None:
-            self._arrows = self._context.scene.add_arrows(
-                f"{ROOT}/joints",
-                lines.astype(np.float32),
-                (230, 180, 20),
-                shaft_radius=0.006,
-                head_radius=0.015,
-                head_length=0.03,
-            )
-        self._arrows.points = lines.astype(np.float32)
+        self._places = LinkPlaces(simulation, simulation.engine.links.names[:_FRAMES])
 
 
 class ContactLayer:
-    """An arrow at each contact, along the force on what is touched.
+    """An arrow at each contact: along its normal, or as long as the logarithm of the force.
 
     Args:
         context: Of the page.
+        forces: Whether forces on what is touched are drawn instead of normals.
     """
 
-    def __init__(self, context: PageContext) -> None:
-        self._context, self.shown = context, False
+    def __init__(self, context: PageContext, *, forces: bool = False) -> None:
+        self._context, self._forces, self.shown = context, forces, False
         self._arrows: Any = None
         self._names: tuple[str, ...] = ()
         self.renew()
@@ -159,10 +123,11 @@ class ContactLayer:
             return np.zeros((0, 2, 3))
         found, rows = table.named(), np.searchsorted(context.worlds, table.worlds)
         start = found.position + context.spots[rows]
-        force = np.linalg.norm(found.force, axis=1, keepdims=True)
-        length = 0.1 * np.log1p(force)
-        along = np.where(force > 0.0, found.force / np.maximum(force, 1e-9), found.normal)
-        return np.stack((start, start + length * along), axis=1)[:_CONTACTS]
+        arrow = _NORMAL * found.normal
+        if self._forces:
+            force = np.linalg.norm(found.force, axis=1, keepdims=True)
+            arrow = found.force * (0.1 * np.log1p(force) / np.maximum(force, 1e-9))
+        return np.stack((start, start + arrow), axis=1)[:_CONTACTS]
 
     def show(self, state: Floats | None) -> None:
         """Draw the arrows."""
@@ -171,9 +136,9 @@ class ContactLayer:
             self._arrows = None
         if state is not None and len(state):
             self._arrows = self._context.scene.add_arrows(
-                f"{ROOT}/contacts",
+                f"{ROOT}/{'forces' if self._forces else 'contacts'}",
                 state.astype(np.float32),
-                (210, 40, 40),
+                _RED if self._forces else _BLUE,
                 shaft_radius=0.008,
                 head_radius=0.02,
                 head_length=0.03,
@@ -277,16 +242,3 @@ class RayLayer:
             along = rotate(turned, model.directions)
             away = np.minimum(found.distance[number], reach)
             yield eyes, eyes + away[:, None] * along, found.distance[number] < reach
-
-
-def _axes_of(model: Model) -> Iterator[tuple[str, str, Pose, Floats]]:
-    """Yield names of joints and of their links, and their axes in these links."""
-    for placed in model.walk():
-        for joint in placed.model.joints:
-            for axis in joint.axes[:1]:
-                yield (
-                    f"{placed.scope}::{joint.name}",
-                    f"{placed.scope}::{joint.child}",
-                    joint.pose,
-                    np.asarray(axis.xyz),
-                )

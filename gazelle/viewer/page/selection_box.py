@@ -10,7 +10,8 @@ import numpy as np
 from gazelle.array_types import Floats
 from gazelle.rotations import rotate
 from gazelle.viewer.page.context import ROOT, PageContext, ScenePart
-from gazelle.viewer.page.shapes import corners_around, corners_of_links, rest_of
+from gazelle.viewer.page.link_places import LinkPlaces
+from gazelle.viewer.page.shapes import corners_around, corners_of_links
 
 _COLOR = (255, 140, 0)
 _ROOM = 0.01  # between shapes and box [m]
@@ -33,6 +34,7 @@ class SelectionBox:
     def __init__(self, context: PageContext) -> None:
         self._context = context
         self._corners: dict[str, Floats] = {}
+        self._places = LinkPlaces(context.simulation, ())
         self._lines: Any = None
         self.renew()
 
@@ -41,7 +43,9 @@ class SelectionBox:
         links = self._links()
         if not links:
             return None
-        at, turned = self._placed(links)
+        if links != self._places.links:
+            self._places = LinkPlaces(self._context.simulation, links)
+        (at,), (turned,) = self._places.read(self._context.chosen)
         if len(links) == 1:
             box = corners_around(self._corners[links[0]], _ROOM)
             placed = at[0] + rotate(turned[0][None], box)
@@ -70,7 +74,8 @@ class SelectionBox:
 
     def renew(self) -> None:
         """Measure the links again, after models changed."""
-        self._corners = corners_of_links(self._context.simulation.world)
+        simulation = self._context.simulation
+        self._corners, self._places = corners_of_links(simulation.world), LinkPlaces(simulation, ())
 
     def _links(self) -> tuple[str, ...]:
         """Return the links inside the box."""
@@ -81,12 +86,3 @@ class SelectionBox:
             return (part.name,) if part.name in self._corners else ()
         prefix = f"{self._context.selected}::"
         return tuple(link for link in self._corners if link.startswith(prefix))
-
-    def _placed(self, links: tuple[str, ...]) -> tuple[Floats, Floats]:
-        """Return positions (links, 3) and quaternions (links, 4), of static links as described."""
-        context = self._context
-        rows = context.simulation.engine.links
-        if all(link in rows for link in links):
-            place = rows[links].placement(context.chosen)
-            return place.position[0], place.quaternion[0]
-        return rest_of(context.simulation.world, links)

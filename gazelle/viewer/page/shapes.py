@@ -78,6 +78,7 @@ class ShapeBatches:
         spots: Where the copies stand [m], shape (copies, 3).
         on_batch: Called with every batch, with what names the part of an instance.
         opacity: Below 1 is transparent.
+        wireframe: Whether only edges of triangles are drawn.
 
     Attributes:
         links: Names of the links to place.
@@ -96,6 +97,7 @@ class ShapeBatches:
         on_batch: Callable[[Any, Callable[[int], Instance]], None] | None = None,
         *,
         opacity: float = 1.0,
+        wireframe: bool = False,
     ) -> None:
         seen = visible_world(world)
         self.links, self.rest = seen.links, rest_of(world, seen.links)
@@ -105,7 +107,7 @@ class ShapeBatches:
         self._at = np.array([pose.position for pose in poses]).reshape(-1, 3)
         self._turned = np.array([pose.quaternion for pose in poses]).reshape(-1, 4)
         self._link = self._tables.parts[:, c.LINK_OF_PART]
-        self._opacity = opacity
+        self._opacity, self._wireframe = opacity, wireframe
         self._batches: list[_Batch] = []
         for number, parts in enumerate(_alike(self._tables)):
             self._add(scene, f"{root}/{number}", parts, on_batch)
@@ -152,8 +154,7 @@ class ShapeBatches:
         on_batch: Callable[[Any, Callable[[int], Instance]], None] | None,
     ) -> None:
         # Grounds of several worlds would lie in each other.
-        first = self._seen.parts[int(self._labels[parts[0]])]
-        worlds = 1 if isinstance(first.visual.geometry, Plane) else len(self._spots)
+        worlds = 1 if self._is_ground(parts) else len(self._spots)
         handle = self._handle(scene, name, parts, worlds)
         self._batches.append(_Batch(handle, parts, worlds))
         if on_batch is None:
@@ -165,6 +166,10 @@ class ShapeBatches:
 
         on_batch(handle, met)
 
+    def _is_ground(self, parts: Ints64) -> bool:
+        first = self._seen.parts[int(self._labels[parts[0]])]
+        return isinstance(first.visual.geometry, Plane)
+
     def _handle(self, scene: SceneApi, name: str, parts: Ints64, worlds: int) -> Any:
         shapes, count = self._tables, len(parts) * worlds
         mesh = shapes.meshes[int(shapes.parts[parts[0], c.MESH_OF_PART])]
@@ -172,12 +177,14 @@ class ShapeBatches:
         faces = shapes.faces[int(mesh[c.FIRST_FACE]) : int(mesh[c.LAST_FACE])]
         at, rotations = np.zeros((count, 3)), np.tile((1.0, 0.0, 0.0, 0.0), (count, 1))
         texture = int(shapes.parts[parts[0], c.TEXTURE_OF_PART])
-        if texture >= 0:
+        if texture >= 0 and self._opacity == 1.0 and not self._wireframe:
             uv = shapes.uv[int(mesh[c.FIRST_VERTEX]) : int(mesh[c.LAST_VERTEX])]
             dressed = textured_mesh(vertices, faces, uv, _picture(shapes, texture))
             return scene.add_batched_meshes_trimesh(name, dressed, rotations, at, lod="off")
         colors = np.clip(shapes.color[parts] + shapes.glow[parts], 0.0, 1.0)
-        clear = shapes.alpha[parts].astype(np.float64) * self._opacity
+        clear = shapes.alpha[parts].astype(np.float64)
+        if not self._is_ground(parts):  # one that can be seen through hides what stands on it
+            clear *= self._opacity
         see_through = bool((clear < 1.0).any())
         return scene.add_batched_meshes_simple(
             name,
@@ -187,6 +194,7 @@ class ShapeBatches:
             at,
             batched_colors=np.tile(np.asarray(colors * 255.0 + 0.5, np.uint8), (worlds, 1)),
             batched_opacities=np.tile(clear, worlds) if see_through else None,
+            wireframe=self._wireframe,
             side="double" if mesh[c.TWO_SIDED] else "front",
             lod="off",
             cast_shadow=not (mesh[c.TWO_SIDED] or see_through),

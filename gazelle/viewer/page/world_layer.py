@@ -6,14 +6,15 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
-
 from gazelle.array_types import Floats
 from gazelle.description import Link, Material, Visual
-from gazelle.viewer.page.context import ROOT, PageContext
+from gazelle.viewer.page.context import ROOT, OptionalLayer, PageContext
+from gazelle.viewer.page.link_places import LinkPlaces
 from gazelle.viewer.page.restyled import restyled
 from gazelle.viewer.page.shapes import Instance, ShapeBatches
 
+LOOKS = ("solid", "transparent", "wireframe")
+_OPACITY = {"transparent": 0.35}
 _ORANGE = (0.95, 0.55, 0.15, 1.0)
 
 
@@ -26,6 +27,11 @@ class ShapeLayer:
         collisions: Whether collision shapes are shown, which can be seen through.
         on_batch: Called with every batch of shapes.
         shown: Whether they are shown at first.
+
+    Attributes:
+        shown: Whether they are shown.
+        look: One of ``LOOKS``.
+        veils: Layers inside the shapes, with which solid ones are transparent.
     """
 
     def __init__(
@@ -41,20 +47,22 @@ class ShapeLayer:
         self._collisions, self._on_batch = collisions, on_batch
         self.shown = shown
         self._batches: ShapeBatches | None = None
-        self._known = np.zeros(0, np.intp)
-        self._links: tuple[str, ...] = ()
+        self._places: LinkPlaces | None = None
+        self._look = LOOKS[0]  # of the present shapes
+        self.look = LOOKS[0]
+        self.veils: tuple[OptionalLayer, ...] = ()
 
     def read(self) -> tuple[Floats, Floats] | None:
         """Return places of all links, shapes (worlds, links, 3) and (worlds, links, 4)."""
         if not self.shown:
             return None
-        batches = self._made()
-        engine, count = self._context.simulation.engine, len(self._context.worlds)
-        at = np.repeat(batches.rest[0][None], count, axis=0)
-        turned = np.repeat(batches.rest[1][None], count, axis=0)
-        place = engine.links[self._links].placement(self._context.worlds)
-        at[:, self._known], turned[:, self._known] = place.position, place.quaternion
-        return at, turned
+        look = self.look
+        if look == LOOKS[0] and any(each.shown for each in self.veils):
+            look = "transparent"
+        if look != self._look:
+            self._look = look
+            self.renew()
+        return self._made().read(self._context.worlds)
 
     def show(self, state: tuple[Floats, Floats] | None) -> None:
         """Move the shapes."""
@@ -67,10 +75,10 @@ class ShapeLayer:
         """Mark the shapes as outdated: the next picture makes them again."""
         if self._batches is not None:
             self._batches.remove()
-            self._batches = None
+            self._batches = self._places = None
 
-    def _made(self) -> ShapeBatches:
-        if self._batches is None:
+    def _made(self) -> LinkPlaces:
+        if self._batches is None or self._places is None:
             context = self._context
             world = context.simulation.world
             if self._collisions:
@@ -81,13 +89,11 @@ class ShapeLayer:
                 world,
                 context.spots,
                 self._on_batch,
-                opacity=0.5 if self._collisions else 1.0,
+                opacity=0.5 if self._collisions else _OPACITY.get(self._look, 1.0),
+                wireframe=self._look == "wireframe",
             )
-            known = set(context.simulation.engine.links.names)
-            links = self._batches.links
-            self._known = np.array([k for k, link in enumerate(links) if link in known], np.intp)
-            self._links = tuple(links[k] for k in self._known.tolist())
-        return self._batches
+            self._places = LinkPlaces(context.simulation, self._batches.links)
+        return self._places
 
 
 def _bare_link(link: Link) -> Link:
