@@ -12,7 +12,6 @@ import numpy as np
 
 from gazelle.argument_checks import checked
 from gazelle.errors import Error, SimulationError, SimulationWarning
-from gazelle.rendering import PinholeLens
 from gazelle.simulation import Robot, Simulation
 from gazelle.simulation.inputs import one_world
 from gazelle.viewer.page.camera_insets import CameraInsets
@@ -21,6 +20,7 @@ from gazelle.viewer.page.driving import DriveControls
 from gazelle.viewer.page.entity_tree import EntityTree
 from gazelle.viewer.page.frustum_layer import FrustumLayer
 from gazelle.viewer.page.goal_layer import GoalLayer, GoalPlaces
+from gazelle.viewer.page.grid_layer import GridLayer
 from gazelle.viewer.page.joint_axis_layer import JointAxisLayer
 from gazelle.viewer.page.joint_sliders import JointSliders
 from gazelle.viewer.page.mass_layers import MassLayer
@@ -33,13 +33,11 @@ from gazelle.viewer.page.property_panel import PropertyPanel
 from gazelle.viewer.page.run_controls import RunControls
 from gazelle.viewer.page.selection_box import SelectionBox
 from gazelle.viewer.page.server import PageServer
-from gazelle.viewer.page.shapes import extent_of_world
+from gazelle.viewer.page.viewpoints import AROUND, Viewpoints, overview
 from gazelle.viewer.page.world_layer import LOOKS, ShapeLayer
-from gazelle.viewer.scene_camera import distance_to_see
 from gazelle_ros.base.closing import Closeable
 
 _BESIDE = 4  # worlds of a batch that are shown by default
-_LENS = PinholeLens(400, 400, 1.25)  # about that of the page
 _LEFT = 300  # width of the left panel [pixel]
 _SHARE = 0.25  # of a core that pictures take at most: dearer ones come less often
 
@@ -137,9 +135,9 @@ class LiveView(Closeable):
         self._root = page.scene.add_frame(ROOT, show_axes=False)
         page.gui.main_panel.dock_right()
         self._server.light_up()
-        self._look_from(spots)
+        self._look_around()
         with simulation.lock:
-            controls = RunControls(context)
+            controls, views = RunControls(context), Viewpoints(context)
             panels = [make(context) for make in self._panels]
             tools = ModelTools(context)
             shapes = ShapeLayer(context, "shapes", on_batch=tools.watch)
@@ -156,6 +154,7 @@ class LiveView(Closeable):
             masses, inertias = MassLayer(context), MassLayer(context, boxes=True)
             shapes.veils = (frames, axes, masses, inertias)
             self._optional: dict[str, OptionalLayer] = {
+                "Grid": GridLayer(context),
                 "Names": NameLayer(context),
                 "Collisions": ShapeLayer(context, "solid", collisions=True, shown=False),
                 "Frames": frames,
@@ -177,7 +176,7 @@ class LiveView(Closeable):
             self._offer()
             self._layers: tuple[PageLayer, ...] = (
                 controls, *panels, shapes, tools, *steering, *self._optional.values(), self._plots,
-                tree, properties, SelectionBox(context),
+                tree, properties, SelectionBox(context), views,
             )  # fmt: skip
             self._changed = False
             events = simulation.events
@@ -207,16 +206,11 @@ class LiveView(Closeable):
         self._context.on_user_change(surfaces, dress)
         shadows.on_update(shade)
 
-    def _look_from(self, spots: Any) -> None:
+    def _look_around(self) -> None:
         """Set the initial view: all of it, from above and aside."""
-        low, high = extent_of_world(self._simulation.world)
-        high = high + spots.max(axis=0)
-        low = low + spots.min(axis=0)
-        middle, aside = (low + high) / 2.0, np.array([-0.45, -0.75, 0.75])
-        away = aside * distance_to_see((high - low) / 2.0, aside, _LENS)
+        middle, eye = overview(self._context, AROUND)
         camera = self._server.viser.initial_camera
-        camera.look_at = tuple(middle.tolist())
-        camera.position = tuple((middle + away).tolist())
+        camera.look_at, camera.position = tuple(middle.tolist()), tuple(eye.tolist())
 
     def _note(self, _robot: Robot) -> None:
         """Record a change of models; between two steps."""
