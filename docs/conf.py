@@ -15,6 +15,8 @@ project = "Gazelle"
 author = "the authors of Gazelle"
 html_title = "Gazelle"
 html_theme = "furo"
+html_static_path = ["_static"]
+html_css_files = ["tables.css"]
 exclude_patterns = ["_build", "_extensions"]
 extensions = [
     "myst_parser",
