@@ -34,6 +34,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--frame", metavar="NAME", help="of a graph: what stands still (default map, odom ...)"
     )
     parser.add_argument(
+        "--layout", metavar="NAME", help="of a graph: a layout that was saved on the page"
+    )
+    parser.add_argument(
         "--port",
         dest="view",
         metavar="PORT",
@@ -63,6 +66,8 @@ def _graph(args: argparse.Namespace) -> int:
     from gazelle.viewer.graph import GraphView
 
     with GraphView(frame=args.frame, port=args.view) as view:
+        if args.layout:
+            view.load_layout(args.layout)
         say(f"view {view.url}\n")
         while not view.ended:
             time.sleep(0.2)

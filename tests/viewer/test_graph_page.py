@@ -12,12 +12,18 @@ pytestmark = pytest.mark.long
 
 
 @pytest.fixture(scope="module")
-def graph():
-    with graph_page() as made:
-        made.say_frames(odom=(0.0, 0.0), laser=(1.0, 0.0))
-        made.say("/scan", "sensor_msgs/LaserScan", "laser", range_max=9.0, angle_min=-3.1,
-                 angle_increment=0.1, ranges=[2.0] * 62)  # fmt: skip
-        yield made
+def graph(tmp_path_factory):
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("XDG_CONFIG_HOME", str(tmp_path_factory.mktemp("config")))
+        with graph_page() as made:
+            fill_graph(made)
+            yield made
+
+
+def fill_graph(made):
+    made.say_frames(odom=(0.0, 0.0), laser=(1.0, 0.0))
+    made.say("/scan", "sensor_msgs/LaserScan", "laser", range_max=9.0, angle_min=-3.1,
+             angle_increment=0.1, ranges=[2.0] * 62)  # fmt: skip
 
 
 def middle(found):
@@ -28,6 +34,10 @@ def middle(found):
 
 def red(picture):
     return (picture[..., 0] > 150) & (picture[..., 1:].max(axis=-1) < 90)
+
+
+def green(picture):
+    return (picture[..., 1] > 130) & (picture[..., [0, 2]].max(axis=-1) < 90)
 
 
 def blue(picture):
@@ -119,3 +129,30 @@ def test_points_are_published_and_distances_measured(graph):
     until(lambda: graph.view._tools._hint.content.endswith("m**"))
     assert float(graph.view._tools._hint.content.strip("*m ")) > 0.5
     graph.choose("Tool", "Move camera")
+
+
+def test_layouts_are_saved_and_loaded(graph):
+    view = graph.view
+    scan = view._displays.topics["/scan"]
+    scan.restyle((10, 200, 20), 0.1)
+    graph.choose("Open panel", "Plot")
+    until(lambda: view._panels.titles == ["Plot"])
+    view._panels.panel("Plot").use(["/speed/data"])
+    graph.choose("Fixed frame", "laser")
+    graph.page.get_by_text("Layout", exact=True).click()
+    graph.fill("Name", "my robot")
+    graph.click("Save")
+    until(lambda: view._layouts._files.names == ["my robot"])
+    scan.restyle((10, 20, 250), 0.02)
+    graph.choose("Fixed frame", "automatic")
+    graph.click("Close")
+    until(lambda: view._panels.titles == [])
+    graph.choose("Load", "my robot")
+    until(lambda: view._panels.titles == ["Plot"])
+    assert view._panels.panel("Plot").settings["fields"] == ["/speed/data"]
+    assert view._context.requested_frame == "laser"
+    assert (scan.drawing.style.color, scan.drawing.style.size) == ((10, 200, 20), 0.1)
+    until(lambda: middle(green(graph.pixels()[:, 460:])) is not None)
+    graph.fill("Name", "../elsewhere")
+    graph.click("Save")
+    graph.wait_text("This cannot be done")

@@ -2,12 +2,17 @@
 
 import re
 from contextlib import contextmanager
+from types import SimpleNamespace
 
 import pytest
 
 pytest.importorskip("viser", reason="the extra 'web' is not installed")
 
+from gazelle.viewer.graph.panels.reconfigure import choices_of
 from gazelle_ros import Time, load_service
+from gazelle_ros.bags import Bag
+from gazelle_ros.msgs import controller_manager_msgs
+from gazelle_ros.reconfigure import ReconfigureServer
 from tests.ros.graph import until
 from tests.viewer.graph_page import graph_page, message
 
@@ -174,6 +179,110 @@ def test_joints_have_sliders_where_a_node_takes_them(graph):
     finally:
         graph.node.delete_param("/left/robot_description")
         sliders.close()
+
+
+class Gains:
+    """Two settings, as dynamic_reconfigure wants them."""
+
+    def __init__(self):
+        self.values = {"gain": 1.0, "inverted": False}
+        self.tunables = {
+            name: SimpleNamespace(name=name, default=value, least=type(value)(0),
+                                  most=type(value)(10), description=f"the {name}")
+            for name, value in self.values.items()
+        }  # fmt: skip
+
+    def send(self, **wanted):
+        self.values.update(wanted)
+        return self.values
+
+
+def test_parameters_are_reconfigured(graph):
+    gains = Gains()
+    server = ReconfigureServer(graph.node, "/driver", gains)
+    with opened_panel(graph, "Reconfigure") as panel:
+        graph.choose("Node", "/driver")
+        until(lambda: set(panel._controls) == {"gain", "inverted"})
+        graph.fill("gain", "2.5")
+        until(lambda: gains.values["gain"] == 2.5)
+        graph.page.get_by_label("inverted").click()
+        until(lambda: gains.values["inverted"] is True)
+        server._publish_values(gains.send(gain=4.0))
+        until(lambda: graph.box("gain").input_value() == "4")
+    server.close()
+
+
+def test_a_bag_is_played(graph, tmp_path):
+    file = tmp_path / "drive.bag"
+    with Bag(str(file), "w") as bag:
+        for tenth in range(20):
+            bag.write(
+                "/count", message("std_msgs/Int32", data=tenth), Time.from_sec(5 + tenth / 10)
+            )
+    got = []
+    graph.node.subscribe("/count", type(message("std_msgs/Int32")), got.append)
+    with opened_panel(graph, "Bag player"):
+        graph.fill("Bag", str(tmp_path / "none.bag"))
+        graph.wait_text("This cannot be done")
+        graph.fill("Bag", str(file))
+        graph.page.locator("td", has_text="/count").wait_for()
+        graph.fill("Start [s]", "0.95")
+        graph.click("Play")
+        graph.wait_text("of 1.9 s, running")
+        until(lambda: got and got[-1].data == 19)
+        assert min(each.data for each in got) >= 10
+
+
+def test_controllers_are_started_and_stopped(graph):
+    names = controller_manager_msgs.srv
+    arm = message("controller_manager_msgs/ControllerState", name="arm", state="stopped", type="t")
+
+    def switch(asked):
+        arm.state = "running" if asked.start_controllers == ["arm"] else "stopped"
+        return {"ok": asked.strictness == 2}
+
+    servers = [
+        graph.node.serve("/cm/list_controllers", names.ListControllers, lambda _: {"controller": [arm]}),
+        graph.node.serve("/cm/switch_controller", names.SwitchController, switch),
+    ]  # fmt: skip
+    with opened_panel(graph, "Controller manager"):
+        row = graph.page.locator("tr", has_text="arm")
+        row.wait_for()
+        graph.choose("Controller", "arm")
+        graph.click("Start")
+        until(lambda: "running" in row.inner_text())
+        graph.click("Stop")
+        until(lambda: "stopped" in row.inner_text())
+    for server in servers:
+        server.close()
+
+
+def test_joints_are_moved_by_trajectories(graph):
+    got = []
+    graph.node.subscribe(
+        "/arm/command", type(message("trajectory_msgs/JointTrajectory")), got.append
+    )
+    actual = message("trajectory_msgs/JointTrajectoryPoint", positions=[0.25, -0.5])
+    graph.say("/arm/state", "control_msgs/JointTrajectoryControllerState",
+              joint_names=["shoulder", "elbow"], actual=actual)  # fmt: skip
+    with opened_panel(graph, "Joint trajectory"):
+        graph.choose("Controller", "/arm")
+        until(
+            lambda: graph.box("elbow").count() == 1 and graph.box("elbow").input_value() == "-0.5"
+        )
+        graph.page.get_by_label("Send").click()
+        graph.fill("shoulder", "1.25")
+        until(lambda: len(got) >= 1)
+        assert got[-1].joint_names == ["shoulder", "elbow"]
+        (point,) = got[-1].points
+        assert list(point.positions) == [1.25, -0.5]
+        assert point.time_from_start.to_sec() == pytest.approx(2.0)  # 1 rad at 0.5 rad/s
+
+
+def test_enumerations_are_read():
+    method = "{'enum': [{'name': 'Low', 'value': 0}, {'name': 'High', 'value': 1}]}"
+    assert choices_of(method) == {"Low": 0, "High": 1}
+    assert choices_of("") == choices_of("{'enum'") == choices_of("[1]") == {}
 
 
 def test_layouts_of_diagrams_lead_downwards():

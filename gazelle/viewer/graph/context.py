@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from gazelle.viewer.graph.robots import DescribedRobot
 from gazelle.viewer.page.server import PageServer
 from gazelle.viewer.page.user_actions import UserActions
 from gazelle_ros import Node, Time
@@ -24,12 +25,14 @@ class GraphContext(UserActions):
         node: Of the page, on the graph.
         server: Of the page.
         tree: Frames of the graph.
+        robots: Robots of the graph by the parameters of their descriptions.
         requested_frame: What stands still; "" for the first there is of map, odom, world, base_link.
     """
 
     node: Node
     server: PageServer
     tree: FrameTree = field(default_factory=FrameTree)
+    robots: dict[str, DescribedRobot] = field(default_factory=dict)
     requested_frame: str = ""
 
     @property

@@ -60,6 +60,7 @@ class TopicDisplay:
         self.arrivals = Arrivals()
         self._fresh: list[Any] = []
         self._last: Any = None
+        self._stale = False
         self._error = ""
         self._status = DisplayStatus("", fault=False)
         self._lock = threading.Lock()
@@ -116,6 +117,10 @@ class TopicDisplay:
         self.resume()
         with self._lock:
             fresh, self._fresh = self._fresh, []
+            stale, self._stale = self._stale, False
+        if stale and self._last is not None:
+            self.drawing.clear()
+            fresh = fresh or [self._last]
         for message in fresh:
             self._last = message
             self._error = ""
@@ -165,9 +170,19 @@ class TopicDisplay:
         if self._text.content != text:
             self._text.content = text
 
-    def show(self, *, shown: bool) -> None:
-        """Show or hide it."""
-        self.shown = self._box.value = shown
+    @property
+    def settings(self) -> dict[str, Any]:
+        """Switch, colour and size, for a saved layout."""
+        style = self.drawing.style
+        color = None if style.color is None else list(style.color)
+        return {"shown": self.shown, "color": color, "size": style.size}
+
+    def restore(self, settings: Mapping[str, Any]) -> None:
+        """Take the settings of a saved layout, as far as they are there."""
+        self.shown = self._box.value = settings.get("shown") is not False
+        color, size = settings.get("color"), settings.get("size")
+        red_green_blue = tuple(color) if isinstance(color, list) and len(color) == 3 else None
+        self.restyle(red_green_blue, size if isinstance(size, float) else None)
 
     def restyle(self, color: tuple[int, int, int] | None, size: float | None) -> None:
         """Choose colour and size, and draw the last message again; None leaves one as it is."""
@@ -179,9 +194,7 @@ class TopicDisplay:
                 setattr(style, attribute, value)
                 control.value = value
         with self._lock:
-            if self._last is not None and self.motion is None and self.kind not in _EVERY:
-                self.drawing.clear()
-                self._fresh.insert(0, self._last)
+            self._stale = self.motion is None and self.kind not in _EVERY
 
     def remove(self) -> None:
         """Remove it from page and graph."""

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 import numpy as np
 
 from gazelle.array_types import Floats
@@ -25,8 +28,9 @@ class DisplayList:
     def __init__(self, context: GraphContext) -> None:
         self._context = context
         self.topics: dict[str, TopicDisplay] = {}
-        self.robots: dict[str, DescribedRobot] = {}
+        self.robots = context.robots
         self._refused: dict[str, tuple[str, str]] = {}
+        self._wanted: dict[str, Any] = {}
         self._folder = context.gui.add_folder("Displays")
 
     @property
@@ -60,6 +64,17 @@ class DisplayList:
         if not len(known):
             return None
         return np.array([known[:, 0].min(axis=0), known[:, 1].max(axis=0)])
+
+    @property
+    def settings(self) -> dict[str, dict[str, Any]]:
+        """Settings of the displays, for a saved layout."""
+        return {topic: each.settings for topic, each in self.topics.items()}
+
+    def restore(self, settings: Mapping[str, Any]) -> None:
+        """Take the settings of a saved layout, those of topics that are not there yet later."""
+        self._wanted = dict(settings)
+        for topic in tuple(self.topics):
+            self._restore(topic)
 
     def discover(self) -> None:
         """Show topics and robots that are new, and update every status."""
@@ -97,6 +112,12 @@ class DisplayList:
     def _add(self, topic: str, kind: str) -> None:
         with self._folder:
             self.topics[topic] = TopicDisplay(self._context, topic, kind)
+        self._restore(topic)
+
+    def _restore(self, topic: str) -> None:
+        wanted = self._wanted.pop(topic, None)
+        if isinstance(wanted, dict):
+            self.topics[topic].restore(wanted)
 
     def _meet(self, name: str) -> None:
         """Read a robot_description, if it is new or another one."""

@@ -7,6 +7,7 @@ import time
 import numpy as np
 
 from gazelle.array_types import Floats
+from gazelle.description import Vector3
 from gazelle.rendering import PinholeLens
 from gazelle.viewer.graph.context import GraphContext
 from gazelle.viewer.scene_camera import distance_to_see
@@ -26,7 +27,7 @@ class ViewFitter:
 
     def __init__(self, context: GraphContext) -> None:
         self._context = context
-        self._count = 0
+        self._count, self._placed = 0, False
         self._since = time.monotonic()
         context.page.on_client_connect(self._begin)
 
@@ -47,9 +48,18 @@ class ViewFitter:
                 client.camera.position = position
                 client.camera.look_at = middle
 
+    def place(self, position: Vector3, look_at: Vector3) -> None:
+        """Look from one point to another [m], now and on pages that are opened later."""
+        self._placed = True
+        camera = self._context.page.initial_camera
+        camera.position, camera.look_at = position, look_at
+        for client in self._context.page.get_clients().values():
+            with client.atomic():
+                client.camera.position, client.camera.look_at = position, look_at
+
     def follow(self, extent: Floats | None, count: int) -> None:
         """Look at a box while the page is new and more is shown than before."""
-        if count > self._count and time.monotonic() - self._since < _SETTLE_S:
+        if not self._placed and count > self._count and time.monotonic() - self._since < _SETTLE_S:
             self._count = count
             self.fit(extent)
 

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import logging
 import threading
+from collections.abc import Sequence
 from functools import partial
 from typing import Any
 
 from gazelle.viewer.graph.context import GraphContext
 from gazelle.viewer.graph.display_list import DisplayList
 from gazelle.viewer.graph.fitting import ViewFitter
+from gazelle.viewer.graph.layouts import LayoutControls
 from gazelle.viewer.graph.panels import PanelSet
 from gazelle.viewer.graph.tools import PointerTools
 from gazelle.viewer.page.server import PageServer
@@ -71,6 +73,26 @@ class GraphView(Closeable):
         """True once it shows nothing any more."""
         return self._stop.is_set()
 
+    def open_panel(self, title: str, arguments: Sequence[str] = ()) -> None:
+        """Open a panel on the page.
+
+        Args:
+            title: Such as ``Plot``.
+            arguments: Of the rqt program that it stands for, such as fields of topics.
+
+        Raises:
+            Error: There is no such panel.
+        """
+        self._panels.open(title, arguments)
+
+    def load_layout(self, name: str) -> None:
+        """Show the page as it was saved under a name.
+
+        Raises:
+            Error: There is no such layout, or it cannot be read.
+        """
+        self._layouts.load(name)
+
     def close(self) -> None:
         """Leave the graph, and free the port; a second call does nothing."""
         self._stop.set()
@@ -99,6 +121,7 @@ class GraphView(Closeable):
         )
         self._panels = PanelSet(context)
         self._displays = DisplayList(context)
+        self._layouts = LayoutControls(context, self._displays, self._panels, self._fitter)
 
     def _follow(self) -> None:
         """Draw new messages while the page is open."""

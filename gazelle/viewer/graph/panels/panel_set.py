@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -72,6 +72,19 @@ class PanelSet:
             raise Error(f"there is no panel '{title}'", hint=did_you_mean(title, PANELS))
         with self._lock:
             self._requests.append(lambda: self._make(title, arguments, settings or {}))
+
+    @property
+    def settings(self) -> dict[str, dict[str, Any]]:
+        """Settings of the open panels, for a saved layout."""
+        return {title: each.panel.settings for title, each in self._open.items()}
+
+    def restore(self, settings: Mapping[str, Any]) -> None:
+        """Open the panels of a saved layout, and close all others."""
+        for title in set(self._open) - set(settings):
+            self.close_panel(title)
+        for title, each in settings.items():
+            if title in PANELS and isinstance(each, dict):
+                self.open(title, settings=each)
 
     def close_panel(self, title: str) -> None:
         """Close a panel with the next picture."""

@@ -20,6 +20,8 @@ class BuiltinPackage:
     """Result of ``$(find PACKAGE)``, if it has files."""
     skipped: str | None = None
     """Why its nodes are left out, such as "it needs a screen"; all others of it are then skipped."""
+    windows: Mapping[str, str] = field(default_factory=dict)
+    """From a program with a window to ``module:function``; launch files leave it out, ``rosrun`` runs it."""
     preferred: frozenset[str] = frozenset()
     """Node types run from here even where the installed package has a program for them."""
     process_names: Mapping[str, str] = field(default_factory=dict)

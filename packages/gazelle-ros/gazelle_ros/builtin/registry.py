@@ -1,5 +1,8 @@
 """Registry of built-in packages and nodes, which other distributions can extend.
 
+Another distribution replaces windows of rqt and rviz with an entry point of the group
+``gazelle_ros.windows``, which leads to a table of ``module:function`` by package and program.
+
 Another distribution adds a package with an entry point of the group ``gazelle_ros.nodes``: its name is
 the package's, its value leads to a `BuiltinPackage`. It is loaded when the package is first asked for.
 """
@@ -12,7 +15,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gazelle_ros.base.entry_points import entry_points_of_others
+from gazelle_ros.base.entry_points import entry_points_of, entry_points_of_others, load
 from gazelle_ros.base.errors import RosError, did_you_mean
 from gazelle_ros.base.path_texts import can_be_path
 from gazelle_ros.builtin import bundled
@@ -25,6 +28,7 @@ if TYPE_CHECKING:
     from gazelle_ros.node import Node
 
 GROUP = "gazelle_ros.nodes"
+WINDOW_GROUP = "gazelle_ros.windows"
 
 Main = Callable[[Sequence[str]], int]
 """Runs a node until it ends: takes its command line without the program, returns an exit code."""
@@ -157,7 +161,6 @@ _OWN = {
         BuiltinPackage("yocs_velocity_smoother", nodelets={
             "VelocitySmootherNodelet": "gazelle_ros.builtin.velocity_smoother:VelocitySmoother",
         }),
-        BuiltinPackage("rviz", skipped=_NO_SCREEN),
     )
 }  # fmt: skip
 _WINDOWS = ("rqt", "rviz")
@@ -191,7 +194,7 @@ def package(name: str) -> BuiltinPackage | None:
     if name in bundled.folders():
         return bundled.package(name)
     if name.startswith(_WINDOWS):
-        return BuiltinPackage(name, skipped=_NO_SCREEN)
+        return BuiltinPackage(name, skipped=_NO_SCREEN, windows=_windows().get(name, {}))
     return None
 
 
@@ -217,7 +220,7 @@ def main_of(name: str, kind: str) -> Main:
         RosError: There is no such node.
     """
     found = package(name)
-    target = found.nodes.get(kind) if found is not None else None
+    target = {**found.windows, **found.nodes}.get(kind) if found is not None else None
     if target is None:
         raise RosError(f"no built-in package '{name}' has a node '{kind}'")
     main: Main = pkgutil.resolve_name(target)
@@ -253,6 +256,15 @@ def nodelets() -> list[str]:
         if found is not None
         for name in sorted(found.nodelets)
     ]
+
+
+@functools.cache
+def _windows() -> dict[str, dict[str, str]]:
+    """Return the programs with a window that other distributions replace, by package."""
+    found: dict[str, dict[str, str]] = {}
+    for name, point in entry_points_of(WINDOW_GROUP).items():
+        found |= load(point, f"the windows of '{name}'", RosError)
+    return found
 
 
 @functools.cache

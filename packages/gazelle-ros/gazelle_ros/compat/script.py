@@ -82,7 +82,7 @@ def run_named(
     """
     from gazelle_ros.builtin import registry
     from gazelle_ros.launch.packages import Packages, is_python
-    from gazelle_ros.launch.programs import PYTHON, Skipped, program_of
+    from gazelle_ros.launch.programs import PYTHON, Skipped, program_of, window_command
 
     if PYTHON.fullmatch(word) and arguments and Path(arguments[0]).is_file():
         word, *arguments = arguments
@@ -96,6 +96,9 @@ def run_named(
         raise packages.unnamed_program(word)
     program = program_of(word, arguments[0], packages)
     if isinstance(program, Skipped):
+        window = window_command(word, arguments[0])
+        if window is not None:
+            return become([*window, *arguments[1:]])
         raise RosError(f"'{program.package}' is left out: {program.reason}")
     path = program.command[-1]
     if program.folder is not None and is_python(Path(path)):

@@ -95,6 +95,14 @@ def program_of(package: str, kind: str, packages: Packages) -> Program | Skipped
     raise packages.missing_program(package, kind)
 
 
+def window_command(package: str, kind: str) -> tuple[str, ...] | None:
+    """Return the command of a built-in program with a window, or None."""
+    known = registry.package(package)
+    if known is None or kind not in known.windows:
+        return None
+    return (*_BUILTIN, package, kind)
+
+
 def script_command(path: Path) -> tuple[str, ...]:
     """Return the command that runs a file: by ``gazelle exec`` for Python, else directly."""
     return (*_EXECUTE, str(path)) if is_python(path) else (str(path),)
