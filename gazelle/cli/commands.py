@@ -22,10 +22,8 @@ _BEFORE = (
     ),
     Command("picture", "draw a world, a recording, a bag, a policy", "look", "gazelle.cli.picture"),
     Command("plot", "plot curves of runs, tables and bags", "look", "gazelle.cli.plot"),
-    Command("film", "film them, as GIF or MP4", "look", "gazelle.cli.film"),
-    Command(
-        "train", "train a policy for a task, or go on with a run", "learn", "gazelle.cli.train"
-    ),
+    Command("film", "record a film, as GIF or MP4", "look", "gazelle.cli.film"),
+    Command("train", "train a policy for a task, or resume a run", "learn", "gazelle.cli.train"),
     Command(
         "eval",
         "measure success, collision and time-out rates of a run",
@@ -33,9 +31,14 @@ _BEFORE = (
         "gazelle.cli.evaluate",
     ),
     Command(
-        "new", "begin a task of your own, or controllers for a robot", "learn", "gazelle.cli.new"
+        "new", "write a template of a task, or controllers for a robot", "learn", "gazelle.cli.new"
     ),
-    Command("study", "try many parameters and seeds, in one table", "learn", "gazelle.cli.study"),
+    Command(
+        "study",
+        "run a function over parameters and seeds, into one table",
+        "learn",
+        "gazelle.cli.study",
+    ),
     Command(
         "runs", "list the training runs of a folder, or import one", "learn", "gazelle.cli.runs"
     ),
@@ -45,29 +48,32 @@ _BEFORE = (
         "learn",
         "gazelle.cli.export",
     ),
-    Command("deploy", "let a policy drive a robot on a ROS 1 graph", "learn", "gazelle.cli.deploy"),
+    Command("deploy", "drive a robot on a ROS 1 graph by a policy", "learn", "gazelle.cli.deploy"),
 )
 _AFTER = (
     Command(
         "shell", "open a shell with roscore, rostopic, rosrun ...", "ROS 1", "gazelle.cli.shell"
     ),
-    Command("tasks", "list the tasks", "what there is", "gazelle.cli.tasks"),
-    Command("robots", "list the bundled robots", "what there is", "gazelle.cli.robots"),
-    Command("worlds", "list the bundled worlds", "what there is", "gazelle.cli.worlds"),
-    Command("plugins", "list the supported plugins", "what there is", "gazelle.cli.plugins"),
+    Command("tasks", "list the tasks", "list and examine", "gazelle.cli.tasks"),
+    Command("robots", "list the bundled robots", "list and examine", "gazelle.cli.robots"),
+    Command("worlds", "list the bundled worlds", "list and examine", "gazelle.cli.worlds"),
+    Command("plugins", "list the supported plugins", "list and examine", "gazelle.cli.plugins"),
     Command(
-        "controllers", "list the types of controllers", "what there is", "gazelle.cli.controllers"
+        "controllers",
+        "list the types of controllers",
+        "list and examine",
+        "gazelle.cli.controllers",
     ),
     Command(
         "doctor",
-        "examine this machine: what works, what is missing",
-        "what there is",
+        "examine this machine for missing parts",
+        "list and examine",
         "gazelle.cli.doctor",
     ),
     Command(
         "completion",
         "print tab completion for bash and zsh",
-        "what there is",
+        "list and examine",
         "gazelle.cli.completion",
     ),
     Command("bench", "run the benchmarks of a source checkout", "measure", "gazelle.cli.bench"),

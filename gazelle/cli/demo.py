@@ -41,7 +41,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--episodes", metavar="N", type=positive_int, default=100, help="goals (default 100)"
     )
     parser.add_argument(
-        "--out", metavar="DIR", type=Path, default=Path("runs"), help="where the run goes"
+        "--out", metavar="DIR", type=Path, default=Path("runs"), help="folder of the run"
     )
     add_view(parser, COPIES)
     add_file_options(parser)

@@ -47,8 +47,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     goals.add_argument(
         "--time-limit", metavar="S", type=positive_float, help="for each goal (default the task's)"
     )
-    safety = parser.add_argument_group("what it may not do, whatever the policy wants")
-    safety.add_argument("--arm", action="store_true", help="drive as soon as all sensors speak")
+    safety = parser.add_argument_group("limits")
+    safety.add_argument("--arm", action="store_true", help="arm as soon as all sensors have data")
     safety.add_argument("--max-linear", metavar="M/S", type=positive_float, default=math.inf)
     safety.add_argument("--max-angular", metavar="RAD/S", type=positive_float, default=math.inf)
     safety.add_argument(
@@ -69,7 +69,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="RAD",
         type=float,
         default=0.0,
-        help="how far the lidar is turned to the left on the robot",
+        help="yaw of the lidar on the robot, to the left [rad]",
     )
     parser.add_argument("--log", metavar="FILE", type=Path, help="log of interventions (JSON)")
     add_import_option(parser)

@@ -55,9 +55,11 @@ def add_source(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("out", metavar="OUT", type=Path, help="the file to write")
     parser.add_argument("--seed", metavar="N", type=int, help="of what runs")
     look = parser.add_argument_group("from where (of worlds and recordings)")
-    look.add_argument("--eye", metavar="X,Y,Z", type=_triple, help="where the camera is [m]")
-    look.add_argument("--target", metavar="X,Y,Z", type=_triple, help="what it looks at [m]")
-    look.add_argument("--follow", metavar="MODEL", default="", help="go along with a model")
+    look.add_argument("--eye", metavar="X,Y,Z", type=_triple, help="position of the camera [m]")
+    look.add_argument(
+        "--target", metavar="X,Y,Z", type=_triple, help="point in the centre of the image [m]"
+    )
+    look.add_argument("--follow", metavar="MODEL", default="", help="follow a model")
     look.add_argument(
         "--top", action="store_true", help="a world in the plane, or a bag, from above"
     )

@@ -18,7 +18,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--height", type=float, default=0.2, help="of the cut [m] (0.2)")
     parser.add_argument("--resolution", type=float, default=0.05, help="of a cell [m] (0.05)")
     parser.add_argument(
-        "--margin", type=float, default=1.0, help="free ground around what stands there [m] (1)"
+        "--margin", type=float, default=1.0, help="free ground around the models [m] (1)"
     )
     parser.add_argument(
         "--area",

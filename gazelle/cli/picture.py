@@ -22,7 +22,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     add_source(parser)
     parser.add_argument(
-        "--at", metavar="SECONDS", type=positive_float, help="after so much time (default 0)"
+        "--at", metavar="SECONDS", type=positive_float, help="simulated time (default 0)"
     )
 
 

@@ -71,7 +71,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--wander",
         action="store_true",
-        help="let the robots of a Stage file go ahead and turn away from what is near",
+        help="let the robots of a Stage file wander",
     )
     add_ground(parser)
     add_view(parser)
@@ -102,7 +102,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="also run a system plugin, one that no file names; may be given several times",
     )
     parser.add_argument(
-        "--verbose", action="store_true", help="say of each controller why it is not started"
+        "--verbose", action="store_true", help="report why controllers are not started"
     )
     parser.set_defaults(parser=parser)
 

@@ -36,7 +36,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="FOLDER",
         type=Path,
         default=[Path("runs")],
-        help="where they are (default runs)",
+        help="folder of the runs (default runs)",
     )
     parser.add_argument(
         "--import",

@@ -37,7 +37,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="ADDRESS",
         nargs="?",
         const="local",
-        help="have the workers on a Ray cluster (default: one on this machine)",
+        help="run the workers on a Ray cluster (default: one on this machine)",
     )
     parser.add_argument(
         "--out", metavar="FILE", type=Path, default=Path("study.csv"), help="default study.csv"

@@ -41,7 +41,7 @@ _QUIET = 0.1  # processors that others kept busy at most, for a wall time to be 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("task", nargs="?", metavar="TASK", help="all about one of them")
+    parser.add_argument("task", nargs="?", metavar="TASK", help="show this task")
     parser.add_argument(
         "--long", action="store_true", help="show figures and times instead of descriptions"
     )

@@ -48,7 +48,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--num-envs", metavar="N", type=positive_int, help="copies at once")
     parser.add_argument("--seed", metavar="N", type=int, help="seed of everything (default 0)")
-    parser.add_argument("--resume", metavar="RUN", type=Path, help="go on with this run")
+    parser.add_argument("--resume", metavar="RUN", type=Path, help="continue this run")
     parser.add_argument(
         "--checkpoint-every", metavar="N", type=positive_int, help="steps between checkpoints"
     )
@@ -78,10 +78,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--sweep",
         metavar="FILE",
         type=Path,
-        help="search values of the recipe, or go on with a search",
+        help="search values of the recipe, or continue a search",
     )
     parser.add_argument(
-        "--out", metavar="DIR", type=Path, help="where the run's folder goes (default runs)"
+        "--out", metavar="DIR", type=Path, help="parent folder of the run (default runs)"
     )
     add_worker_options(
         parser, "processes that play rollouts; the result does not depend on their number"

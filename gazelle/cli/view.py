@@ -31,7 +31,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--seed", metavar="N", type=int, default=0, help="default 0")
     add_ground(parser)
     parser.add_argument(
-        "--frame", metavar="NAME", help="of a graph: what stands still (default map, odom ...)"
+        "--frame", metavar="NAME", help="fixed frame of a graph (default map, odom ...)"
     )
     parser.add_argument(
         "--layout", metavar="NAME", help="of a graph: a layout that was saved on the page"

@@ -1,4 +1,4 @@
-"""Play bags: publish what was recorded, at the times it was recorded."""
+"""Play bags: publish recorded messages at their times."""
 
 from __future__ import annotations
 

@@ -23,20 +23,20 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
     commands = SubCommands(parser)
     configure_record(commands.add("record", "record topics", _record))
-    configure_play(commands.add("play", "publish what was recorded", _play))
-    info = commands.add("info", "what is in bags", _info)
+    configure_play(commands.add("play", "publish recorded messages", _play))
+    info = commands.add("info", "contents of bags", _info)
     info.add_argument("bags", nargs="+", metavar="BAG")
     info.add_argument("-y", "--yaml", action="store_true", help="as YAML")
     info.add_argument("-k", "--key", help="one value of it")
     info.add_argument("--freq", action="store_true", help="rates of topics too")
-    checking = commands.add("check", "whether its types are those known here", _check)
+    checking = commands.add("check", "compare the types of a bag with the bundled ones", _check)
     checking.add_argument("bag", metavar="BAG")
     filtering = commands.add("filter", "copy the messages that an expression chooses", _filter)
     filtering.add_argument("source", metavar="IN")
     filtering.add_argument("target", metavar="OUT")
     filtering.add_argument("expression", metavar="EXPR", help="Python, with topic, m and t")
     filtering.add_argument("-p", "--print", dest="shown", metavar="EXPR", help="show of each")
-    fixing = commands.add("fix", "copy a bag whose types are those known here", _fix)
+    fixing = commands.add("fix", "copy a bag with the bundled types", _fix)
     fixing.add_argument("source", metavar="IN")
     fixing.add_argument("target", metavar="OUT")
     fixing.add_argument("rules", nargs="*", metavar="RULES", help=argparse.SUPPRESS)
@@ -46,7 +46,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     mcap.add_argument("source", metavar="IN")
     mcap.add_argument("target", metavar="OUT", nargs="?", help="default: IN with .mcap")
     for name, purpose, action in (
-        ("reindex", "make bags whole that were cut off", _reindex),
+        ("reindex", "repair truncated bags", _reindex),
         ("compress", "compress bags", _compress),
         ("decompress", "undo compress", _compress),
     ):

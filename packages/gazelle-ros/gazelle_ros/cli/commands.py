@@ -57,7 +57,7 @@ COMMANDS = {
         Command("param", "get, set, load and dump parameters", "ROS 1", "gazelle_ros.cli.param"),
         Command(
             "bridge",
-            "let WebSocket clients join the graph, as rosbridge does",
+            "connect WebSocket clients to the graph, as rosbridge",
             "ROS 1",
             "gazelle_ros.cli.bridge",
         ),

@@ -66,14 +66,16 @@ def configure(parser: argparse.ArgumentParser) -> None:
     runs.add_argument(
         "-v", "--verbose", action="store_true", help="first show parameters and nodes, as roslaunch"
     )
-    runs.add_argument("--no-summary", action="store_true", help="do not tell what is started")
+    runs.add_argument(
+        "--no-summary", action="store_true", help="without a summary of parameters and nodes"
+    )
     runs.add_argument("--sigint-timeout", type=positive_float, default=15.0, metavar="S")
     runs.add_argument("--sigterm-timeout", type=positive_float, default=2.0, metavar="S")
     tests = parser.add_argument_group("test, as rostest does")
     tests.add_argument("--test", action="store_true", help="run the tests of the files")
     tests.add_argument("--text", action="store_true", help="tests write to the screen")
     tests.add_argument("--results", metavar="DIR", help="write JUnit results below this folder")
-    tests.add_argument("--reuse-master", action="store_true", help="use the master that runs")
+    tests.add_argument("--reuse-master", action="store_true", help="use the running master")
     for option in _NO_EFFECT:
         runs.add_argument(option, action="store_true", help=argparse.SUPPRESS)
     for options in (*_NO_EFFECT_VALUES, *_CHILD):

@@ -100,9 +100,9 @@ def add_scenario_options(parser: argparse.ArgumentParser) -> None:
     """Add the options for starts and ends of episodes of navigation tasks."""
     group = parser.add_argument_group("starts and goals (of navigation tasks)")
     kinds = "published, training or held-out"
-    group.add_argument("--goals", metavar="KIND", help=f"where goals are: {kinds}")
+    group.add_argument("--goals", metavar="KIND", help=f"goals: {kinds}")
     group.add_argument(
-        "--starts", metavar="KIND", help=f"how robot and obstacles stand at first: {kinds}"
+        "--starts", metavar="KIND", help=f"initial poses of robot and obstacles: {kinds}"
     )
 
 
@@ -134,7 +134,7 @@ def add_worker_options(parser: argparse.ArgumentParser, what: str) -> None:
         metavar="ADDRESS",
         nargs="?",
         const="local",
-        help="have the workers on a Ray cluster (default: one on this machine)",
+        help="run the workers on a Ray cluster (default: one on this machine)",
     )
 
 
