@@ -25,7 +25,7 @@ class ConversionContext:
 
     Attributes:
         frame: Frame of the port, for kinds without one.
-        world: Which world of the batch.
+        world: World of the batch.
         stamp: Turns a simulated time [ns] into the graph's.
         prefix: Put before the names of frames, as tf does.
     """

@@ -17,7 +17,7 @@ class TimedGraph(Protocol):
 
     Attributes:
         node: On the graph.
-        world: Which world of a batch the graph sees and commands.
+        world: World of the batch that the graph uses.
     """
 
     node: Node
@@ -42,7 +42,7 @@ class Graph:
     Args:
         simulation: Runs.
         node: On the graph.
-        world: Which world of a batch the graph sees and commands.
+        world: World of the batch that the graph uses.
         monotonic: Let the graph's time never go back: after a reset it continues from where it
             was.
     """

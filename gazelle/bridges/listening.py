@@ -22,7 +22,7 @@ class OnDemandTopic:
         topic: Full name.
         kind: Of the values.
         listen: To the port.
-        view: How the graph sees a value.
+        view: Conversion of a value for the graph.
         queue_size: Of the topic.
         latch: Whether a late subscriber gets the last value.
 

@@ -95,7 +95,7 @@ def serve_ros(
             11311. Where none answers on this machine, one is started.
         name: Of the node.
         host: The name other nodes reach it by; loopback by default.
-        world: Which world of a batch the graph sees and commands.
+        world: World of the batch that the graph uses.
         monotonic_clock: Let ``/clock`` continue at a reset instead of back to zero.
 
     Raises:

@@ -91,7 +91,7 @@ def control_files(
 
     Args:
         robot: Text of a URDF.
-        interface: How joints without a transmission are commanded; that of the others is in it.
+        interface: Interface of joints without a transmission; that of the others is in it.
         kind: One ``trajectory`` controller for all joints, one ``group`` that takes an array of
             targets, or a controller for each ``joint``.
         rate: At which joint states are published [Hz].

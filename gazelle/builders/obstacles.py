@@ -42,10 +42,10 @@ def random_obstacles(
     """Return obstacles at random places, no two of which overlap.
 
     Args:
-        count: How many.
+        count: Number of obstacles.
         area: Where; None for 10 m x 10 m around the origin.
         seed: Same seed, same obstacles.
-        kinds: What they may be.
+        kinds: Allowed kinds.
         radius: Least and greatest radius of the circle around one [m].
         height: Least and greatest height [m]; a sphere's follows from its radius.
         keep_clear: Zones that none touches, such as where robots start.
@@ -89,10 +89,10 @@ def random_plants(
     """Return trees, bushes and rocks at random places, their crowns apart.
 
     Args:
-        count: How many.
+        count: Number of plants.
         area: Where; None for 10 m x 10 m around the origin.
         seed: Same seed, same plants.
-        kinds: What they may be.
+        kinds: Allowed kinds.
         height: Least and greatest height, of rocks the size [m].
         keep_clear: Zones that no crown reaches over.
         gap: Least distance between two crowns, and from zones [m].

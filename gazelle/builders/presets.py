@@ -183,7 +183,7 @@ def outdoor(
         houses: From 0 to 6.
         rocks: Number of rocks and bushes, each.
         relief: Height of the highest hills [m]; 0 for flat land.
-        kinds: What the trees may be; a kind named twice is twice as frequent.
+        kinds: Allowed kinds of trees; a kind named twice is twice as frequent.
         name: Of the world.
 
     Raises:

@@ -22,7 +22,7 @@ class Opening:
     """A hole in a wall.
 
     Attributes:
-        wall: Which stretch of the line, counted from 0.
+        wall: Stretch of the line, counted from 0.
         at: Where its middle is, from the start of that stretch [m].
         width: [m].
         bottom: Height of its lower edge [m]; 0 for a door.

@@ -181,7 +181,7 @@ class WorldBuilder:
 
         Args:
             drawing: See ``builders.plan_walls``; its options work here too.
-            legend: What to make at a letter, such as ``{"d": desk}``.
+            legend: Function for each letter, such as ``{"d": desk}``.
             cell: Side of a cell [m].
             **options: For the walls.
         """

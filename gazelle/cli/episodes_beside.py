@@ -25,7 +25,7 @@ def show_episodes(result: Evaluation, port: int) -> None:
 
     Raises:
         TaskError: The task has no simulation, or workers played its episodes.
-        MissingExtraError: What serves the page is not installed.
+        MissingExtraError: The package that serves the page is not installed.
     """
     from gazelle.training.rerun import Rerun, worst_first
     from gazelle.viewer.episodes_page import EpisodesPage

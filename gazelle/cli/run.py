@@ -189,7 +189,7 @@ def go(sim: Simulation, args: argparse.Namespace, page: str = "") -> int:
     """Run until the end of the time, or Ctrl-C, by ``seconds``, ``rate`` and ``paused``.
 
     Args:
-        sim: What runs.
+        sim: Simulation.
         args: Of the command line.
         page: Line with the address of the page, printed first.
     """

@@ -74,7 +74,7 @@ def training(result: TrainResult, indent: int = 0) -> str:
     """Return a summary of a training in two lines without a final newline.
 
     Args:
-        result: What it did.
+        result: Result of the training.
         indent: Spaces before the second line.
     """
     pace = result.new_steps / max(result.wall_seconds, 1e-9)

@@ -38,7 +38,7 @@ def viewing(sim: Simulation, args: argparse.Namespace) -> Iterator[str]:
         A line with its address, "" without a page. Print it last, where it is found again.
 
     Raises:
-        MissingExtraError: What serves the page is not installed.
+        MissingExtraError: The package that serves the page is not installed.
         Error: The port is taken.
     """
     if args.view is None:
@@ -54,7 +54,7 @@ def watched(progress: Progress, args: argparse.Namespace) -> Progress:
     """Return the display of a training, with a page that shows some of the copies on request.
 
     Raises:
-        MissingExtraError: What serves the page is not installed.
+        MissingExtraError: The package that serves the page is not installed.
     """
     if args.view is None:
         return progress

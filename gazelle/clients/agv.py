@@ -42,8 +42,8 @@ class AGVFleet(Closeable):
         pose_name: Of the topic or service under each namespace; ``base_pose_ground_truth`` or
             ``get_pose`` by default.
         service_type: Of the service; register its text first, see ``gazelle_ros.messages``.
-        limits: How fast and how exact they are.
-        rate: How often a service is asked [Hz of simulated time].
+        limits: Speeds and tolerances.
+        rate: Rate of service calls [Hz of simulated time].
 
     Raises:
         UnknownTypeError: The type of the service is not known.

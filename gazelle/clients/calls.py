@@ -19,7 +19,7 @@ class Caller:
         node: Calls.
         namespace: Put before the names of services.
         timeout: For a service to be there and for it to answer, each, in wall time [s].
-        retries: How often a call that broke off is made again.
+        retries: Number of retries of an interrupted call.
     """
 
     def __init__(self, node: Node, namespace: str, timeout: float, retries: int) -> None:

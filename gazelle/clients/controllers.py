@@ -33,7 +33,7 @@ class Controllers(Closeable):
         node: Calls.
         namespace: Of the robot; the manager is ``<namespace>/controller_manager``.
         timeout: For a service to be there and for it to answer, each [s of wall time].
-        retries: How often a call that broke off is made again.
+        retries: Number of retries of an interrupted call.
     """
 
     def __init__(
@@ -124,7 +124,7 @@ class Controllers(Closeable):
             stop: Those to stop.
             strict: All or nothing; else what cannot be started or stopped is passed over.
             start_asap: Start each as soon as its joints are ready.
-            timeout: How long the manager may wait for the robot [s]; 0 for as long as it takes.
+            timeout: Longest wait of the manager for the robot [s]; 0 for no limit.
 
         Raises:
             ClientError: The manager refuses.

@@ -43,7 +43,7 @@ class Gazebo(PhysicsCalls, Closeable):
         namespace: Where the services are.
         master_uri: For its own node; by default ``ROS_MASTER_URI``.
         timeout: For services to be there and for answers [s of wall time].
-        retries: How often calls that break off are made again; steps and forces never are,
+        retries: Number of retries of interrupted calls; steps and forces are never repeated,
             and models are neither spawned nor deleted twice.
 
     Raises:

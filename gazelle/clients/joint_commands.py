@@ -102,7 +102,7 @@ class JointCommander(Closeable):
 
         Args:
             targets: As for ``send`` [rad or m].
-            tolerance: How far a joint may be off [rad or m].
+            tolerance: Largest error of a joint [rad or m].
             timeout: For all of it [s of wall time].
             progress: Called with the rest at each message of the joints.
 

@@ -60,7 +60,7 @@ class PerformanceWatch(Closeable):
         rate: Looks a second of wall time [Hz].
 
     Attributes:
-        samples: What was seen.
+        samples: Received samples.
     """
 
     def __init__(self, node: Node, pids: tuple[int, ...] = (), rate: float = 2.0) -> None:

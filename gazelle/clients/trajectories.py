@@ -41,7 +41,7 @@ class TrajectoryProgress:
     Attributes:
         seconds: Since its start.
         actual: Where each joint is [rad or m].
-        error: How far it is behind [rad or m].
+        error: Remaining distance [rad or m].
     """
 
     seconds: float
@@ -56,7 +56,7 @@ class TrajectoryOutcome:
     Attributes:
         status: ``SUCCEEDED``, ``ABORTED``, ``PREEMPTED``, ``REJECTED``, ``RECALLED`` or ``LOST``.
         error_code: Of control_msgs/FollowJointTrajectoryResult: 0, or why.
-        text: What the controller says of it.
+        text: Message of the controller.
     """
 
     status: str
@@ -155,7 +155,7 @@ class TrajectoryClient(Closeable):
         Args:
             targets: Positions by joint [rad or m]; a controller with ``allow_partial_joints_goal``
                 takes some of its joints, others need all.
-            seconds: How long it takes, in the robot's time.
+            seconds: Duration, in the robot's time.
             timeout: The longest wait [s of wall time]; then it is cancelled.
             progress: Called with feedback.
 
@@ -212,10 +212,10 @@ class TrajectoryClient(Closeable):
             joints: Whose positions the waypoints hold.
             waypoints: In the order of their times; none to hold still.
             progress: Called with feedback, by the subscriber's thread.
-            path_tolerance: How far joints may be off on the way [rad or m]; negative for no bound.
+            path_tolerance: Largest error of joints along the path [rad or m]; negative for no bound.
                 Those that are not named have the controller's own.
             goal_tolerance: Likewise, at the end.
-            goal_time: How much longer it may take [s]; 0 for the controller's own.
+            goal_time: Allowed delay [s]; 0 for the controller's own.
 
         Raises:
             ClientError: The controller does not answer.

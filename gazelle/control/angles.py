@@ -31,7 +31,7 @@ def distance(start: Floats, end: Floats, continuous: Bools, lower: Floats, upper
     Args:
         start: Where they are [rad], shape (..., n).
         end: Where they have to be [rad], likewise.
-        continuous: Which have no limits, shape (n,).
+        continuous: Mask of joints without limits, shape (n,).
         lower: Limits [rad], shape (n,).
         upper: Limits [rad], shape (n,).
     """

@@ -16,7 +16,7 @@ class BaseOdometry:
 
     Args:
         nworld: Number of worlds.
-        window: How many velocities are averaged.
+        window: Number of velocities that are averaged.
 
     Attributes:
         pose: x, y [m] and heading [rad], shape (nworld, 3).

@@ -95,10 +95,10 @@ class Controller:
         running: Whether it is updated, kept by the manager.
         claimed: Resources that it has for itself, by interface.
         inputs: Commands that it takes.
-        outputs: What it publishes.
+        outputs: Published outputs.
         actions: Goals that it takes.
         queries: Questions that it answers.
-        tunings: What can be changed while it runs.
+        tunings: Parameters that can be changed at run time.
     """
 
     interfaces: ClassVar[tuple[str, ...]] = ()
@@ -171,7 +171,7 @@ class Controller:
         """Update the state after native updates, the last one at ``now_ns``.
 
         Args:
-            updates: How often.
+            updates: Number of updates.
             period: Of the last one [s].
         """
 

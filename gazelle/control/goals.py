@@ -34,16 +34,16 @@ class Goal(Generic[G]):
     """A goal in some worlds.
 
     Args:
-        value: What is wanted.
+        value: Target.
         worlds: Where, shape (n,).
         port: That it was given to.
 
     Attributes:
-        value: What is wanted.
+        value: Target.
         worlds: Where, shape (n,).
-        states: What became of it in each of them, ``GoalState``, shape (n,).
-        results: What came out in each of them, of the port's ``result``; None while there is nothing.
-        text: What was said last, for people.
+        states: State in each of them, ``GoalState``, shape (n,).
+        results: Result in each of them, of the port's ``result``; None while there is none.
+        text: Latest message, for people.
     """
 
     def __init__(self, value: G, worlds: Worlds, port: ActionPort[G]) -> None:
@@ -196,7 +196,7 @@ class ActionPort(Generic[G]):
         """Send a goal; it replaces the active one in these worlds.
 
         Args:
-            value: What is wanted.
+            value: Target.
             worlds: Where; everywhere if None.
 
         Returns:

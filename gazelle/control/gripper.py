@@ -27,7 +27,7 @@ class GripperActionController(Controller):
     Attributes:
         action_name: Of its action.
         tolerance: Within which a goal is reached, unless ``goal_tolerance`` says otherwise.
-        stall_ends: What becomes of a goal when the gripper stalls.
+        stall_ends: Outcome of a goal when the gripper stalls.
     """
 
     action_name = "gripper_cmd"

@@ -138,7 +138,7 @@ class JointCommandInterface(HardwareInterface):
         name: Of the interface.
         names: Of the joints, all of them in ``states``.
         states: Of the joints.
-        fields: What a command consists of; what ``COMMAND_FIELDS`` says if None.
+        fields: Fields of a command; ``COMMAND_FIELDS`` if None.
 
     Raises:
         ControlError: ``COMMAND_FIELDS`` does not have the name, and there are no fields.
@@ -243,7 +243,7 @@ class JointHandles:
         Args:
             values: Shape (n, joints), or what broadcasts to that.
             field: As of ``command``.
-            worlds: Which worlds; all if None.
+            worlds: Worlds; all if None.
 
         Raises:
             ControlError: As of ``command``, or the values have another shape.

@@ -129,7 +129,7 @@ class ControllerManager:
             strictness: ``STRICT``: all or nothing; ``BEST_EFFORT``: names that are unknown, running
                 or stopped already are passed over. 0 is ``BEST_EFFORT`` with a warning.
             start_asap: Start each controller as soon as its joints have switched.
-            timeout: How long the robot may take for that, on the updates' clock [s]; 0 for ever.
+            timeout: Longest time for that, on the updates' clock [s]; 0 for no limit.
 
         Returns:
             The switch: done already, unless the robot needs time.
@@ -257,7 +257,7 @@ class ControllerManager:
 
         Args:
             now_ns: The last time [ns].
-            updates: How often.
+            updates: Number of updates.
             period: Of an update [s].
         """
         self.now_ns = now_ns

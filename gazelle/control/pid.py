@@ -73,7 +73,7 @@ class Pid:
         p_error: The last error, shape (nworld, n).
         i_error: Its integral, likewise.
         d_error: Its rate, likewise.
-        output: What came out, likewise.
+        output: Output, likewise.
         law: The same in native code, on the same arrays.
     """
 
@@ -120,7 +120,7 @@ class Pid:
         """Return the outputs for errors now.
 
         Args:
-            error: What is wanted less what is, shape (nworld, n).
+            error: Desired less actual value, shape (nworld, n).
             dt: Since the last time [s]; with 0 the output is 0, and nothing is remembered.
             error_dot: Rate of the error; that since the last time if None. After a reset the error
                 before counts as 0, as in the original.

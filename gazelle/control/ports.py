@@ -50,7 +50,7 @@ class CommandPort(Generic[T]):
         queue_size: Of the topic.
 
     Attributes:
-        publishers: How many there are of the topic, where a bridge knows; some controllers refuse
+        publishers: Number of publishers of the topic, where a bridge knows; some controllers refuse
             commands of several.
     """
 
@@ -72,7 +72,7 @@ class CommandPort(Generic[T]):
 
         Args:
             value: Of the port's kind.
-            worlds: Which worlds; all if None.
+            worlds: Worlds; all if None.
 
         Raises:
             ControlError: The controller refuses it: it does not run, or a value cannot be.
@@ -173,7 +173,7 @@ class TunableValue:
 
     Attributes:
         name: Its name.
-        default: What a description of it gives; its type is that of all values.
+        default: Default value; its type is that of all values.
         least: Smallest value.
         most: Largest value.
         description: For people.
@@ -197,7 +197,7 @@ class TuningPort:
 
     Args:
         topic: Namespace of the dynamic_reconfigure server, as of a ``CommandPort``.
-        tunables: What can be changed.
+        tunables: Parameters that can be changed.
         values: Returns the current values, by name.
         change: Called with what is to hold, all of it.
         call: Does it between two updates.

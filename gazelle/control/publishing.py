@@ -57,7 +57,7 @@ class PublishingSchedule:
 
         Args:
             now_ns: Time of the last update [ns].
-            updates: How many there were.
+            updates: Number of updates.
         """
         if self._period_ns and self._last_ns is not None:
             missed = (now_ns - 1 - self._last_ns) // self._period_ns

@@ -20,7 +20,7 @@ class PublishingController(Controller):
     """Publishes its ports at a rate; a subclass opens them in ``init``.
 
     Attributes:
-        ports: What is published.
+        ports: Published outputs.
         schedule: When.
     """
 

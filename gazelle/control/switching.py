@@ -46,7 +46,7 @@ class Switch:
         start: Names of what is started.
         stop: Names of what was stopped.
         asap: Whether each is started as soon as its own joints have switched.
-        timeout: How long the robot may take [s]; 0 for ever.
+        timeout: Longest time [s]; 0 for no limit.
         begun_ns: When it began [ns].
         waiting: Names of what is still to be started.
         failed: Names of controllers that were aborted, as the robot did not switch.

@@ -19,7 +19,7 @@ class TrajectoryTolerances:
     Attributes:
         path: On the way, shape (joints, 3).
         goal: At the end, likewise.
-        goal_time: How much later than its end a trajectory may be there [s].
+        goal_time: Allowed delay of a trajectory's end [s].
     """
 
     path: Floats

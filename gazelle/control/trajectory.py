@@ -29,7 +29,7 @@ class Waypoints:
         positions: [m or rad], shape (k, n) of n joints.
         velocities: Likewise.
         accelerations: Likewise.
-        joints: Which joints, columns of the controller's, shape (n,).
+        joints: Joints, columns of the controller's, shape (n,).
     """
 
     times: Floats
@@ -66,7 +66,7 @@ class TrajectoryTable:
     Args:
         nworld: Number of worlds.
         joints: Number of joints.
-        endless: Which of them turn without limits, shape (joints,).
+        endless: Mask of joints without limits, shape (joints,).
 
     Attributes:
         followers: Called with all segments whenever there are others.
@@ -135,7 +135,7 @@ class TrajectoryTable:
 
         Args:
             time: On the controller's clock [s].
-            rows: Which worlds; all if None.
+            rows: Worlds; all if None.
         """
         acting = self._acting(time, rows)
         since = time - acting.begin
@@ -155,7 +155,7 @@ class TrajectoryTable:
         Args:
             time: Now [s].
             position: Where, shape (n, joints).
-            rows: Which worlds, shape (n,).
+            rows: Worlds, shape (n,).
         """
         shape = (*position.shape, 1)
         polynomials = np.zeros((*shape, 6))
@@ -169,7 +169,7 @@ class TrajectoryTable:
         Args:
             time: Now [s].
             duration: [s].
-            rows: Which worlds, shape (n,).
+            rows: Worlds, shape (n,).
         """
         now = self.sample(time, rows)
         zero = np.zeros_like(now.position)
@@ -204,7 +204,7 @@ class TrajectoryTable:
             now: Of the next update [s].
             begin: When they begin [s].
             goal: Number of the goal that they are of; 0 for none.
-            rows: Which worlds, shape (n,).
+            rows: Worlds, shape (n,).
         """
         change = max(begin, now)
         joints = points.joints

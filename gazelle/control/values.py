@@ -105,12 +105,12 @@ class JointControlState:
 
     Attributes:
         stamp: [ns].
-        set_point: What is wanted.
-        process_value: What is.
+        set_point: Desired value.
+        process_value: Actual value.
         process_value_dot: Its rate.
-        error: What is wanted less what is.
+        error: Desired less actual value.
         time_step: Of the last update [s].
-        command: What was commanded.
+        command: Command.
         p: Gain.
         i: Gain.
         d: Gain.
@@ -139,7 +139,7 @@ class PidStatus:
     Attributes:
         stamp: [ns].
         time_step: [s].
-        error: What it acts on.
+        error: Error that it acts on.
         error_dot: Its rate.
         p_error: As ``error``.
         i_error: The integral.
@@ -222,7 +222,7 @@ class TrajectoryGoal:
         trajectory: To follow.
         path_tolerance: On the way.
         goal_tolerance: At the end.
-        goal_time_tolerance: How much longer it may take [s]; 0 for the controller's own.
+        goal_time_tolerance: Allowed delay [s]; 0 for the controller's own.
     """
 
     trajectory: JointTrajectory
@@ -267,8 +267,8 @@ class TrajectoryState:
     Attributes:
         stamp: [ns].
         names: Of the joints.
-        desired: What the trajectory says.
-        actual: What is.
+        desired: State by the trajectory.
+        actual: Actual state.
         error: The difference.
         time_from_start: Of the first joint's trajectory [s], shape (nworld,).
     """

@@ -89,7 +89,7 @@ class Mesh:
     """A mesh in a file.
 
     Attributes:
-        uri: What the description file said.
+        uri: As in the description file.
         path: The file found for it; None when it was not found (a stand-in is used).
         scale: Factors along x, y, z; may be negative, which mirrors.
         submesh: Name of the one part to use; None for all.
@@ -109,12 +109,12 @@ class Heightmap:
     """Terrain from a grey-scale image or a DEM file.
 
     Attributes:
-        uri: What the description file said.
+        uri: As in the description file.
         path: The file found for it, or None.
         size: Extent along x, y and the height of full white [m].
         position: Offset of the centre [m].
         sampling: Samples per pixel.
-        extras: What it looks like: ``<texture>``, ``<blend>`` and the like, kept whole.
+        extras: Looks: ``<texture>``, ``<blend>`` and the like, kept as in the file.
     """
 
     uri: str
@@ -131,7 +131,7 @@ class Image:
     """Boxes extruded from the dark pixels of an image.
 
     Attributes:
-        uri: What the description file said.
+        uri: As in the description file.
         path: The file found for it, or None.
         scale: Metres a pixel.
         threshold: Grey value (0 to 255) above which a pixel is free.

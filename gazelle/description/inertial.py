@@ -57,7 +57,7 @@ class Inertial:
         mass: [kg].
         pose: The inertial frame in the link frame; its origin is the centre of mass.
         inertia: About the centre of mass, in the inertial frame.
-        written: What the file says where no body can have that; it is saved again.
+        written: Values of the file where no body can have them; they are saved again.
     """
 
     mass: float = 1.0

@@ -32,7 +32,7 @@ class Mimic:
 
     Attributes:
         joint: Name of the leading joint, in the same model.
-        axis: Which axis of the leader: 0 or 1.
+        axis: Axis of the leader: 0 or 1.
         multiplier: Dimensionless, or rad/m and m/rad between kinds.
         offset: [m or rad].
         reference: [m or rad].
@@ -128,7 +128,7 @@ class Joint:
         physics: Engine terms.
         safety: URDF's soft limits, or None.
         sensors: Force-torque sensors.
-        extras: What has no effect, kept as the file has it: the axis of a fixed joint.
+        extras: Elements without effect, kept as in the file: the axis of a fixed joint.
     """
 
     name: str

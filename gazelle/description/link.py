@@ -51,8 +51,8 @@ class Visual:
         cast_shadows: Whether it throws shadows.
         laser_retro: Intensity that a GPU lidar reports.
         visibility_flags: Cameras see it when their mask shares a bit.
-        plugins: What shows something on it.
-        extras: What has no effect here, kept as the file has it: layers of an editor, ...
+        plugins: Plugins that draw on it.
+        extras: Elements without effect, kept as in the file: layers of an editor, ...
     """
 
     name: str

@@ -24,7 +24,7 @@ class Material:
         script_uris: Where the file says the script is; empty for Gazebo's own.
         script_places: The files and folders behind ``script_uris`` that are there.
         texture: Image file of the diffuse texture, or None.
-        extras: What has no effect here, kept as the file has it: shaders, other maps, ...
+        extras: Elements without effect, kept as in the file: shaders, other maps, ...
         urdf_color: The colour that a URDF's own ``<material>`` gives, which a script hides.
     """
 

@@ -19,7 +19,7 @@ class Noise:
         bias_mean: Mean of the constant bias, drawn once a run.
         bias_stddev: Standard deviation of that draw.
         dynamic_bias_stddev: Standard deviation of a slowly drifting bias.
-        dynamic_bias_correlation_time: How slowly it drifts [s].
+        dynamic_bias_correlation_time: Time constant of its drift [s].
         precision: Step of a quantised output.
     """
 

@@ -60,7 +60,7 @@ class Physics:
             work); None leaves it to the engine.
         contacts: ``exact`` (what is held does not creep) or ``fast`` (for robots that drive),
             whatever ``ode.friction_model`` says; None leaves it to that, or to the engine.
-        extras: What has no effect here, kept as the file has it: bullet, dart, simbody, ...
+        extras: Elements without effect, kept as in the file: bullet, dart, simbody, ...
     """
 
     name: str = "default_physics"

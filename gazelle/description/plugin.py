@@ -14,7 +14,7 @@ class Plugin:
 
     Attributes:
         name: Its name in the file.
-        filename: Which code: ``libgazebo_ros_diff_drive.so`` or ``package.module:Class``.
+        filename: Code: ``libgazebo_ros_diff_drive.so`` or ``package.module:Class``.
         parameters: The element, without the two attributes above, for typed access to its children.
     """
 

@@ -38,7 +38,7 @@ class Lidar:
         vertical: Rows of rays about y, upwards; one row at angle 0 for a planar scanner.
         range_min: Nearest distance measured [m].
         range_max: Farthest distance measured [m].
-        range_resolution: What the file says is the step of the distance [m]; 0 for none. Gazebo
+        range_resolution: Step of the distance by the file [m]; 0 for none. Gazebo
             classic reads it and does nothing with it.
         noise: On the distance [m].
         quantized: Whether distances are rounded to ``range_resolution``.
@@ -143,7 +143,7 @@ class Sensor:
         imu: Set for an IMU.
         cameras: Set for the camera family: one, or several of a multicamera.
         contact: Set for a contact sensor.
-        settings: What of the ``<sensor>`` element has no field here; for types without
+        settings: Parts of the ``<sensor>`` element without a field here; for types without
             fields of their own all that they add.
         plugins: In file order.
     """

@@ -96,7 +96,7 @@ class Surface:
         friction: Friction.
         contact: Stiffness and masks.
         bounce: Restitution.
-        extras: What has no effect here, kept as the file has it: Bullet's terms, DART's
+        extras: Elements without effect, kept as in the file: Bullet's terms, DART's
             ``<soft_contact>``, ...
     """
 

@@ -18,7 +18,7 @@ class GymV21CompatibilityV0(gymnasium.Env[Any, Any]):
         env_id: Makes it by name, if ``env`` is None.
         make_kwargs: For ``gym.make``.
         env: With the old interface.
-        render_mode: What ``render`` shows.
+        render_mode: Output of ``render``.
     """
 
     def __init__(

@@ -45,7 +45,7 @@ def make_engine(
 
     Args:
         name: ``mujoco``, ``planar``, or another of ``engine_names``.
-        world: What to simulate.
+        world: World to simulate.
         nworld: Number of copies.
         time_step: Physics step [s]; the world's own if None.
         threads: Native threads; all processors if None.

@@ -133,7 +133,7 @@ class Engine(Protocol):
 
         Args:
             sets: Scoped names, ``model::link::collision``, of each set.
-            worlds: Which worlds, in this order; all if None.
+            worlds: Worlds, in this order; all if None.
 
         Raises:
             EngineError: There is no such collision, or the engine knows no contacts.
@@ -168,7 +168,7 @@ class Engine(Protocol):
         Args:
             parent: Scoped name of the link that is held to.
             child: Scoped name of the link that is held.
-            worlds: Which worlds.
+            worlds: Worlds.
             settling: Time constant with which they come together again [s], critically damped,
                 where something drew them apart; None for as stiff as can be.
         """
@@ -182,7 +182,7 @@ class Engine(Protocol):
         Args:
             kind: One of ``PARAMETERS``.
             name: Scoped name of the link, joint or collision it is of; empty for the world.
-            worlds: Which worlds.
+            worlds: Worlds.
         """
 
     def set_parameter(

@@ -139,7 +139,7 @@ def _positions(joint: Joint, moved: Placement) -> Floats:
     """Return the positions of a joint that come nearest to a motion, shape (n, axes).
 
     Args:
-        joint: What it is.
+        joint: The joint.
         moved: The joint's frame on the child's side in that on the parent's.
     """
     if joint.type == "ball":
@@ -166,7 +166,7 @@ def _rates(joint: Joint, frame: Placement, child: Placement, moving: Motion, arm
     """Return the speeds of a joint that suit a relative velocity, shape (n, axes).
 
     Args:
-        joint: What it is.
+        joint: The joint.
         frame: The joint's frame on the parent's side.
         child: The same on the child's side.
         moving: The link's velocity as the parent sees it, in the world frame.

@@ -21,7 +21,7 @@ class RangeRays:
         link: Scoped name of their link.
         origins: In the link's frame [m], shape (rays, 3).
         directions: Unit vectors, likewise.
-        reach: How far they go [m]; what is farther may be left out.
+        reach: Range [m]; farther bodies may be left out.
     """
 
     link: str

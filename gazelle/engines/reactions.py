@@ -28,11 +28,11 @@ class ContactTable:
     """Contacts of some sets of collisions, set by set and world by world; see ``Contacts``.
 
     Attributes:
-        sets: Which set each contact is one of, shape (k,).
-        worlds: Which world it is in, shape (k,).
+        sets: Set of each contact, shape (k,).
+        worlds: World of each contact, shape (k,).
         names: Scoped names of collisions; another object when models have changed.
         collisions: Of the set, as indices of ``names``, shape (k,).
-        others: What touches them, likewise.
+        others: Other collisions of the contacts, likewise.
         terms: Position, normal, depth, force and torque side by side, shape (k, 13).
     """
 
@@ -66,7 +66,7 @@ class Contacts:
         others: Scoped names of what touches them, length k.
         position: Between the two surfaces [m], shape (k, 3).
         normal: Unit vectors from the other into the collision, shape (k, 3).
-        depth: How deep they sink into each other [m], shape (k,); negative for a contact that
+        depth: Penetration depth [m], shape (k,); negative for a contact that
             acts shortly before they touch.
         force: On the collision, at ``position`` [N], shape (k, 3).
         torque: On the collision, of torsional friction [N m], shape (k, 3).

@@ -54,7 +54,7 @@ class LinkRow(LinkRows, Protocol):
         Args:
             origins: In the link frame [m], shape (rays, 3).
             directions: Unit vectors in the link frame, shape (rays, 3).
-            worlds: Which worlds.
+            worlds: Worlds.
             ignore_own: Whether rays pass through the shapes of the link.
         """
 
@@ -69,7 +69,7 @@ class LinkRow(LinkRows, Protocol):
         Args:
             position: [m], shape (3,) or (n, 3).
             quaternion: (x, y, z, w), shape (4,) or (n, 4).
-            worlds: Which worlds.
+            worlds: Worlds.
 
         Returns:
             The scoped name of the joint that was moved; empty if the whole model was.
@@ -88,7 +88,7 @@ class LinkRow(LinkRows, Protocol):
         Args:
             linear: Of the link's origin [m/s], shape (3,) or (n, 3).
             angular: [rad/s], shape (3,) or (n, 3).
-            worlds: Which worlds.
+            worlds: Worlds.
         """
 
     def set_wrench(self, force: ArrayLike, torque: ArrayLike, worlds: Worlds | None = None) -> None:
@@ -97,7 +97,7 @@ class LinkRow(LinkRows, Protocol):
         Args:
             force: [N], shape (3,) or (n, 3).
             torque: [N m], shape (3,) or (n, 3).
-            worlds: Which worlds.
+            worlds: Worlds.
 
         Raises:
             EngineError: The link does not move, or the engine knows no forces.
@@ -207,7 +207,7 @@ class JointRow(Protocol):
 
         Args:
             velocity: Shape () or (n,); of a joint with several axes (), (axes,) or (n, axes).
-            worlds: Which worlds.
+            worlds: Worlds.
 
         Raises:
             EngineError: The joint has no motor.
@@ -225,7 +225,7 @@ class FrameRows(Protocol):
 
         Args:
             twist: Forward and to the left [m/s], turning [rad/s], shape (3,) or that of the rows.
-            worlds: Which worlds.
+            worlds: Worlds.
         """
 
 
@@ -257,7 +257,7 @@ class ModelRow(FrameRows, Protocol):
         Args:
             position: [m], shape (3,) or (n, 3).
             quaternion: (x, y, z, w), shape (4,) or (n, 4).
-            worlds: Which worlds.
+            worlds: Worlds.
         """
 
     def set_motion(
@@ -268,7 +268,7 @@ class ModelRow(FrameRows, Protocol):
         Args:
             linear: Of the model's frame [m/s], shape (3,) or (n, 3).
             angular: [rad/s], shape (3,) or (n, 3).
-            worlds: Which worlds.
+            worlds: Worlds.
         """
 
     def path(self, path: ModelPath) -> System | None:

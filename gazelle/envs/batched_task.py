@@ -111,8 +111,8 @@ class BatchedTask(ABC):
         observation_space: Of one world.
         action_space: Of one world.
         control_period: Simulated time of one control step [s].
-        scenario_names: What the numbers of `scenario` are, such as ``start_x``.
-        floor_plan: What stands in the world, seen from above; None if unknown.
+        scenario_names: Names of the numbers of `scenario`, such as ``start_x``.
+        floor_plan: Plan of the world, seen from above; None if unknown.
         elapsed: Control steps of the current episode, shape (nworld,).
     """
 

@@ -25,7 +25,7 @@ class CourseTask(TaskWrapper):
     done goes into it. It starts again with every episode.
 
     Args:
-        task: What to wrap; with a few actions to choose from.
+        task: Task to wrap; with a few actions to choose from.
         x: Entry of its observations with the base's x [m].
         y: Entry with its y [m].
         steps: Over how many steps, such as ``(1, 4, 16)``.

@@ -58,7 +58,7 @@ class FreeSpace:
     """The part of a floor that a robot can get to.
 
     Args:
-        plan: What stands in the way.
+        plan: Plan of the obstacles.
         start: From where it sets out (x, y) [m].
 
     Raises:

@@ -26,7 +26,7 @@ class TaskGoalVectorEnv(TaskVectorEnv):
     ``desired_goal``, as of Gymnasium-Robotics' ``GoalEnv``; all else is as `TaskVectorEnv` says.
 
     Args:
-        task: What to wrap; the environment closes it.
+        task: Task to wrap; the environment closes it.
         seed: Of the first episodes when ``reset`` gets none.
         render_mode: ``rgb_array``, or None.
         autoreset_mode: One of Gymnasium's, or its name.

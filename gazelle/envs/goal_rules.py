@@ -17,7 +17,7 @@ def is_at(place: Floats, goal: Row, tolerance: float) -> Bools:
     Args:
         place: x and y, and maybe more [m], shape (n, 2 or 3).
         goal: Likewise, shape (2 or 3,).
-        tolerance: How far a place may be off along each axis [m].
+        tolerance: Tolerance of a place along each axis [m].
     """
     middle = np.asarray(goal, np.float64)[:2]
     return is_inside(place[:, :2], middle - tolerance, middle + tolerance)

@@ -39,7 +39,7 @@ class GoalSimulationTask(SimulationTask):
 
     Attributes:
         goal_space: Of one goal.
-        rows: How observation and goals stand in a row.
+        rows: Layout of observation and goals in a row.
     """
 
     goal_space: gym.spaces.Box

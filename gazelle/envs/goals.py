@@ -29,8 +29,8 @@ class GoalTable:
     Attributes:
         points: Places in the world frame [m], shape (m, 2).
         start: Index of the place of the very first goal.
-        counts: How many places may follow each place, shape (m,).
-        successors: Which ones: the first ``counts[i]`` numbers of row i, shape (m, m).
+        counts: Number of successors of each place, shape (m,).
+        successors: Successors: the first ``counts[i]`` numbers of row i, shape (m, m).
     """
 
     def __init__(

@@ -22,7 +22,7 @@ def take(simulation: Simulation, view: View, world: int) -> tuple[Picture, Float
     Args:
         simulation: Of the environment; the caller owns its state.
         view: From where; of its samples there is one a pixel.
-        world: Which world.
+        world: World.
 
     Returns:
         The picture, shape (height, width, 3), and the distances to what the middles of pixels

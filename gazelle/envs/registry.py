@@ -49,7 +49,7 @@ def _named(room: str, name: str, steps: int, env: str = "") -> RegisteredTask:
         room: The package below `gazelle.envs` that has them.
         name: Of the task.
         steps: Control steps until an episode is truncated.
-        env: What stands before ``Env`` and ``VectorEnv``, if not the name.
+        env: Text before ``Env`` and ``VectorEnv``, if not the name.
     """
     home = f"gazelle.envs.{room}.envs:{env or name}"
     return RegisteredTask(f"gazelle/{name}-v0", f"{home}Env", f"{home}VectorEnv", steps)

@@ -42,7 +42,7 @@ class SettingsVectorEnv(TaskVectorEnv):
     """Many worlds of a task; see `SettingsEnv`.
 
     Args:
-        num_envs: How many.
+        num_envs: Number of environments.
         autoreset_mode: See `TaskVectorEnv`.
         options: The fields of ``settings_class``.
 

@@ -185,7 +185,7 @@ def simulation_of(
     """Create the simulation of a task, with the user's settings.
 
     Args:
-        world: What stands there.
+        world: World with the obstacles.
         nworld: Number of worlds.
         settings: Options of the user.
         time_step: The task's own physics step [s]; None for the world's.

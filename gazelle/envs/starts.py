@@ -30,7 +30,7 @@ class RandomStarts:
 
     Attributes:
         poses: x, y [m] and heading [rad] of the robot at its start, shape (nworld, 3).
-        phases: How long ago scripts began then [s], shape (nworld, scripts).
+        phases: Time since scripts began [s], shape (nworld, scripts).
 
     Raises:
         TaskError: There is no place.
@@ -62,7 +62,7 @@ class RandomStarts:
         """Place robot and scripts at random, in worlds that were just reset.
 
         Args:
-            worlds: Which ones, shape (n,).
+            worlds: Worlds, shape (n,).
             goals: Where the robots will have to go (x, y) [m], shape (n, 2).
             nearest: The shortest range that a lidar has in some worlds now [m].
         """

@@ -35,7 +35,7 @@ class TaskVectorEnv(gym.vector.VectorEnv[Any, Any, NDArray[Any]]):
     It can be pickled and copied, and both continue with the same future.
 
     Args:
-        task: What to wrap; the environment closes it.
+        task: Task to wrap; the environment closes it.
         seed: Of the first episodes when ``reset`` gets none.
         render_mode: ``rgb_array``, or None.
         autoreset_mode: One of Gymnasium's, or its name.

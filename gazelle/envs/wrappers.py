@@ -137,8 +137,8 @@ class FrameStackTask(TaskWrapper):
     `gymnasium.wrappers.FrameStackObservation` does this for single environments, in one more axis.
 
     Args:
-        task: What to wrap.
-        count: How many observations, 1 or more.
+        task: Task to wrap.
+        count: Number of observations, 1 or more.
     """
 
     def __init__(self, task: BatchedTask, count: int) -> None:
@@ -173,7 +173,7 @@ class TimeAwareTask(TaskWrapper):
     arXiv 1712.00378).
 
     Args:
-        task: What to wrap.
+        task: Task to wrap.
 
     Raises:
         TaskError: It has no step limit, or its observations are no vectors.
@@ -210,8 +210,8 @@ class ObservationDelayTask(TaskWrapper):
     """Shows what was seen some steps ago, and until then the first observation; rewards are not delayed.
 
     Args:
-        task: What to wrap.
-        steps: How many control steps, 0 or more.
+        task: Task to wrap.
+        steps: Number of control steps, 0 or more.
     """
 
     def __init__(self, task: BatchedTask, steps: int) -> None:
@@ -238,9 +238,9 @@ class ActionDelayTask(TaskWrapper):
     """Does each action some steps later, and until then an idle one.
 
     Args:
-        task: What to wrap.
-        steps: How many control steps, 0 or more.
-        idle: What is done at first: an action; None for the one nearest to zeros.
+        task: Task to wrap.
+        steps: Number of control steps, 0 or more.
+        idle: First action; None for the one nearest to zeros.
 
     Raises:
         TaskError: The idle action is none of the task's.
@@ -273,7 +273,7 @@ class ActionSmoothingTask(TaskWrapper):
     """Does a moving average of actions: ``weight`` of the new one, the rest of what was done before.
 
     Args:
-        task: What to wrap; its actions must be real numbers.
+        task: Task to wrap; its actions must be real numbers.
         weight: Above 0 and up to 1, which changes nothing.
 
     Raises:
@@ -312,7 +312,7 @@ def wrapped(
     Args:
         env: Of a task of Gazelle's kind, single or vector, wrapped by Gymnasium or not. It is not to
             be used any more.
-        kind: What to put around the task.
+        kind: Class of the wrapper.
         options: Its arguments.
 
     Raises:

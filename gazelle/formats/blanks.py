@@ -22,9 +22,9 @@ def plain_bytes(data: bytes, name: str, comment: re.Pattern[str], report: Report
     """Return the text of a file with plain blanks; unusual ones give one warning.
 
     Args:
-        data: What is in the file; it stays as it is where it is not UTF-8.
+        data: Content of the file; it stays as it is where it is not UTF-8.
         name: The file.
-        comment: What a comment looks like: nothing is said of blanks in it.
+        comment: Pattern of a comment, whose blanks are not reported.
         report: Takes the warning.
     """
     clean, line = characters.plain_bytes(data, comment)

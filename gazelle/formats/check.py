@@ -28,11 +28,11 @@ class Problem:
     Attributes:
         severity: An error stops the load or a plugin, or is a fault that the load continues with
             as Gazebo does (rule ``tolerated``); a warning is neither.
-        message: What is wrong.
+        message: Description of the problem.
         file: File it is in.
         line: Line in that file, counted from 1.
         element: Path of the element.
-        hint: What to do about it.
+        hint: Fix.
         why: Why it matters; None where that is plain.
         rule: Short name of the rule that found it; None for findings of the reader.
     """

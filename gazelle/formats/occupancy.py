@@ -54,7 +54,7 @@ class MapSettings:
         negate: Whether bright is occupied.
         occupied_thresh: Darkness, 0 to 1, above which a cell is occupied.
         free_thresh: Darkness below which a cell is free.
-        mode: What becomes of the darkness between.
+        mode: Treatment of pixels between the thresholds.
     """
 
     image: str

@@ -68,7 +68,7 @@ class HardwareLoop(Closeable):
         rate: Of control periods [Hz].
 
     Attributes:
-        graph: What the robot is shown by.
+        graph: Graph node of the robot.
     """
 
     def __init__(self, node: Node, manager: ControllerManager, rate: float = 100.0) -> None:
@@ -87,7 +87,7 @@ class HardwareLoop(Closeable):
         """Advance by one control period.
 
         Args:
-            period: What controllers take it for [s]; what went by since the one before if None.
+            period: Period of the controllers [s]; the time since the last update if None.
         """
         now = self._node.clock.now()
         if period is None:

@@ -64,7 +64,7 @@ class Entities:
 
     Args:
         simulation: Runs.
-        world: Which world of the batch.
+        world: World of the batch.
     """
 
     def __init__(self, simulation: Simulation, world: int) -> None:

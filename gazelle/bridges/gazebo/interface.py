@@ -44,11 +44,11 @@ class GazeboInterface(Closeable):
     Args:
         simulation: Runs, on whatever thread steps it.
         node: Called ``gazebo``; it stays open when the server is closed.
-        world: Which world of a batch the graph sees and commands.
+        world: World of the batch that the graph uses.
         monotonic_clock: Let ``/clock`` continue at a reset instead of back to zero.
 
     Attributes:
-        context: What the parts of the server share.
+        context: State shared by the server's parts.
     """
 
     def __init__(

@@ -29,7 +29,7 @@ def constraints_of_message(
 
     Args:
         message: The constraints.
-        frames: What their frames are.
+        frames: Their frames.
         state: Where the robot is: frames may move with it. Shape (variables,).
 
     Raises:

@@ -36,13 +36,13 @@ def shortest_plan(
     One that goes straight is not tried again.
 
     Args:
-        scene: What must not be touched.
+        scene: Planning scene.
         group: Group of the joints that move.
         goal: Where to.
         start: Of all variables, shape (variables,).
         held: Constraints all along.
-        options: How to plan; their time is that of all attempts together.
-        attempts: How often; once if it is not above one.
+        options: Planning options; their time is that of all attempts together.
+        attempts: Number of attempts; once if it is not above one.
 
     Raises:
         NoPlanError: There is none, and why.

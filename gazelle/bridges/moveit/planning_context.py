@@ -32,14 +32,14 @@ class PlanningContext:
         node: On the graph.
 
     Attributes:
-        scene: What must not be touched; use it only while holding ``lock``.
+        scene: Planning scene; use it only while holding ``lock``.
         lock: Questions and changes come one at a time, and are short.
         planned: The scene that plans are made in, so that nothing waits for a plan; use it only while
             holding ``planning``, and have it follow ``scene`` before.
         planning: Plans come one at a time; take it before ``lock``.
         monitor: Where the joints are.
         frames: Frames of messages.
-        capabilities: Which services and actions there are.
+        capabilities: Available services and actions.
 
     Raises:
         Error: There is no description of a robot, or it cannot be read.

@@ -21,7 +21,7 @@ def scene_message(
 
     Args:
         scene: The scene; its state is where the robot is.
-        parts: Which of it: a sum of the components' numbers.
+        parts: Requested parts: a sum of the components' numbers.
         colors: ``std_msgs/ColorRGBA`` by object or link.
     """
     message = moveit_msgs.msg.PlanningScene()

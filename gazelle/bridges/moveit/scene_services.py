@@ -29,7 +29,7 @@ class SceneServices:
         context: The robot and its scene.
 
     Attributes:
-        revision: How often the scene was changed.
+        revision: Number of changes of the scene.
     """
 
     def __init__(self, context: PlanningContext) -> None:

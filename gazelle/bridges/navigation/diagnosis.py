@@ -23,8 +23,8 @@ class StartDiagnosis:
 
     Args:
         node: On the graph.
-        what: What is missing now, one entry each; empty when all is there.
-        patience: How long it may take [s of wall time].
+        what: Missing parts, one entry each; empty when all is there.
+        patience: Longest time [s of wall time].
     """
 
     def __init__(

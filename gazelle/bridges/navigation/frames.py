@@ -64,7 +64,7 @@ def missing_links(tree: FrameTree, whole: str, odom: str, base: str, sensor: str
     """Return the missing links from map to odometry to base to sensor, each with its usual sender.
 
     Args:
-        tree: What is known.
+        tree: Known transforms.
         whole: Frame of the map; empty if it is not needed.
         odom: Frame of the odometry.
         base: Frame of the robot.

@@ -34,7 +34,7 @@ class MappingNode(ABC):
         scans: Topic of the scans.
         interval: Between two maps [s].
         period: Between two transforms [s]; none if it is 0.
-        ahead: How far transforms are dated ahead [s].
+        ahead: Time by which transforms are dated ahead [s].
     """
 
     def __init__(

@@ -17,7 +17,7 @@ class TransformFinder:
 
     Args:
         frames: Of the graph.
-        timeout: How long to wait for a transform at the time of a measurement [s].
+        timeout: Longest wait for a transform at the time of a measurement [s].
 
     Attributes:
         missing: Targets and sources between which there was no transform when one was last needed.

@@ -36,9 +36,9 @@ class Env(Closeable):
     Attributes:
         metadata: Such as the modes of ``render``.
         reward_range: Smallest and largest reward.
-        spec: What it was registered as; None if it was made without ``gym.make``.
-        action_space: What ``step`` takes.
-        observation_space: What ``reset`` and ``step`` return.
+        spec: Its registration; None if it was made without ``gym.make``.
+        action_space: Actions of ``step``.
+        observation_space: Observations of ``reset`` and ``step``.
     """
 
     metadata: Mapping[str, Any] = {"render.modes": []}

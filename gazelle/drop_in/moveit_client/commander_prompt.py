@@ -112,7 +112,7 @@ class CommandCompleter:
         Args:
             line: All that is typed.
             text: The word.
-            state: Which of the ends.
+            state: Index of the completion.
         """
         begun = line.split()
         first = begun[0] if begun else ""

@@ -86,7 +86,7 @@ class PoseTargets:
         """Return ``moveit_msgs/Constraints``, one for each of several goals; links share them.
 
         Args:
-            kind: Which part of the poses counts.
+            kind: Part of the poses that counts.
             position: Tolerance [m].
             orientation: Tolerance about each axis [rad].
         """

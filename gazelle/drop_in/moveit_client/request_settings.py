@@ -26,7 +26,7 @@ class RequestSettings:
         tolerances: Of goals: ``joint`` [m or rad], ``position`` [m], ``orientation`` [rad].
         factors: Of the limits of ``velocity`` and ``acceleration``.
         time: To plan [s].
-        attempts: How often to plan; the best counts.
+        attempts: Number of planning attempts; the best counts.
         pipeline: Of planners.
         planner: Its name.
         start: A ``RobotState``.

@@ -168,7 +168,7 @@ class GroupTargets(GroupState):
 
         Args:
             axis: Its number.
-            value: How far from there [m or rad].
+            value: Distance from there [m or rad].
             end_effector_link: The link.
         """
         self._needs_link(end_effector_link, "which link? The group has no end effector")

@@ -24,9 +24,9 @@ class GazeboConnection:
 
     Args:
         start_init_physics_parameters: Set the physics that openai_ros begins with.
-        reset_world_or_sim: What `resetSim` does: ``SIMULATION`` puts back everything and the time,
+        reset_world_or_sim: Effect of `resetSim`: ``SIMULATION`` resets everything and the time,
             ``WORLD`` the models only, ``NO_RESET_SIM`` nothing.
-        max_retry: How often a call that broke off is made again.
+        max_retry: Number of retries of an interrupted call.
 
     Raises:
         TaskError: There is no such kind of reset.

@@ -21,7 +21,7 @@ class RobotGazeboEnv(GraphEnv):
 
     Args:
         robot_name_space: Of the robot's controllers; empty for none.
-        controllers_list: What is reset with every episode.
+        controllers_list: Controllers that are reset with every episode.
         reset_controls: Whether it is.
         start_init_physics_parameters: See `GazeboConnection`.
         reset_world_or_sim: See `GazeboConnection`.
@@ -30,7 +30,7 @@ class RobotGazeboEnv(GraphEnv):
         gazebo: The simulator.
         controllers_object: The controllers.
         np_random: Random numbers, after `seed`.
-        episode_num: How many episodes have ended.
+        episode_num: Number of finished episodes.
         cumulated_episode_reward: Of the episode so far.
     """
 

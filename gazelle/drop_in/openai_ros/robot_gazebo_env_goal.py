@@ -20,7 +20,7 @@ class RobotGazeboEnv(GraphEnv, GoalEnv):
 
     Args:
         robot_name_space: Of the robot's controllers; empty for none.
-        controllers_list: What is reset with every episode.
+        controllers_list: Controllers that are reset with every episode.
         reset_controls: Whether it is.
     """
 

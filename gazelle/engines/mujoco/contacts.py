@@ -38,7 +38,7 @@ class _ContactRows:
     """All contacts of some worlds, world by world; see ``_read_contacts``.
 
     Attributes:
-        worlds: Which world each is in, shape (k,).
+        worlds: World of each, shape (k,).
         starts: Where its world's constraints begin among ``forces``, shape (k,).
     """
 
@@ -59,8 +59,8 @@ class _Layer:
     """Sets of collisions that have none in common.
 
     Attributes:
-        sets: Which each geom's collision is in, shape (geoms + 1,); -1 for none.
-        ranks: How early it is named there, likewise.
+        sets: Set of each geom's collision, shape (geoms + 1,); -1 for none.
+        ranks: Rank in that list, likewise.
     """
 
     sets: Indices
@@ -73,7 +73,7 @@ class _GeomList:
     Attributes:
         names: Scoped names of their collisions.
         distinct: The same, each once.
-        numbers: Which of those each is.
+        numbers: Their numbers.
     """
 
     def __init__(self, layout: MujocoLayout, count: int) -> None:
@@ -110,7 +110,7 @@ class ContactAccess:
     """The part of ``gazelle.engines.engine.Engine`` that knows what touches.
 
     Args:
-        run: What runs.
+        run: Running worlds.
         stepper: Applies the forces of a moment.
         reactions: Has single worlds with all their forces.
     """
@@ -220,7 +220,7 @@ def _contact_forces(
     Args:
         forces: Of all constraints.
         address: Of each contact's first, shape (k,).
-        dims: How many directions each contact acts in, shape (k,).
+        dims: Number of directions of each contact, shape (k,).
         rubs: Coefficients of friction where friction is a pyramid, shape (k, 5); each of its
             edges is the normal and one direction times its coefficient. None for a cone.
     """

@@ -58,7 +58,7 @@ class MujocoEngine:
     them, taken over as it is so that a call costs no more for that.
 
     Args:
-        world: What to simulate.
+        world: World to simulate.
         nworld: Number of copies.
         time_step: Physics step [s]; the world's ``max_step_size`` if None.
         threads: Native threads; all processors if None. The results do not depend on it.
@@ -66,7 +66,7 @@ class MujocoEngine:
             only a compiled world has: after motors and kinematic models have been requested.
 
     Attributes:
-        running: What runs.
+        running: Running worlds.
         reactions: Wrenches of joints.
         links: Links of all models.
         joints: Joints of all models that can move.

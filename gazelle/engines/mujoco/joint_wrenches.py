@@ -28,7 +28,7 @@ class JointReactions:
     """The part of ``gazelle.engines.engine.Engine`` that measures joint wrenches.
 
     Args:
-        run: What runs.
+        run: Running worlds.
         stepper: Applies the forces of a moment.
     """
 

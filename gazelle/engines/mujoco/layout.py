@@ -42,7 +42,7 @@ class LinkSlot:
 
     Attributes:
         body: MuJoCo's body index; the world's for a static link.
-        root: How it moves, if it is the root of its tree.
+        root: Motion of a root of a tree.
         free: Columns of its free joint, if it has one.
         mocap: Row in ``mocap_pos``, if it is kinematic.
         pose: Its pose in the world in the initial state, if it is a root.

@@ -284,7 +284,7 @@ class ParameterStore:
         nworld: Number of worlds.
 
     Attributes:
-        writes: How often something was set.
+        writes: Number of writes.
     """
 
     def __init__(self, nworld: int) -> None:

@@ -288,7 +288,7 @@ class RecoverySpeedLimit:
     The speed of a body is that of its frame and what its spin is worth in energy.
 
     Args:
-        model: What runs.
+        model: Running model.
         speed: At which each geom leaves what it overlaps [m/s].
     """
 
@@ -322,8 +322,8 @@ class RecoverySpeedLimit:
 
         Args:
             state: Of all worlds.
-            marked: Which geoms are under penetration recovery, shape (nworld, geoms).
-            before: What ``before`` gave.
+            marked: Mask of geoms under penetration recovery, shape (nworld, geoms).
+            before: Result of ``before``.
         """
         worlds, geoms = np.nonzero(marked)
         bodies = self._place[geoms]

@@ -40,7 +40,7 @@ def nearest(
         run: Worlds that run.
         start: In the world frame, ``beside`` where they should begin [m], shape (n, rays, 3).
         along: Unit vectors, shape (n, rays, 3).
-        worlds: Which worlds.
+        worlds: Worlds.
         excluded: A body that rays pass through; the world's, 0, for none.
     """
     distance, geom, normal = run.batch.ray(
@@ -96,7 +96,7 @@ def cast_from(
         link: Scoped name.
         place: Pose of the link.
         rays: Origins and directions in its frame, shapes (rays, 3).
-        worlds: Which worlds.
+        worlds: Worlds.
         ignore_own: Whether rays pass through the shapes of the link.
     """
     origins, directions = (np.ascontiguousarray(each, np.float64)[None] for each in rays)

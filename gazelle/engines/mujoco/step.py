@@ -25,7 +25,7 @@ class WorldSteps:
     others are updated between two calls of MuJoCo, as threads of those work on copies of the state.
 
     Args:
-        run: What runs.
+        run: Running worlds.
         stepper: Steps it.
         reset: Puts worlds back to their initial state.
         in_step: Returns whether the integrator looks at forces once a step.

@@ -33,7 +33,7 @@ class ForcedSteps:
     """The part of ``gazelle.engines.engine.Engine`` that steps.
 
     Args:
-        run: What runs.
+        run: Running worlds.
         motion: Returns how a link moves, for the wind.
 
     Attributes:

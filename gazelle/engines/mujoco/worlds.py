@@ -62,16 +62,16 @@ class RunningWorlds:
     models that are requested before that, as plugins do, are compiled with it.
 
     Args:
-        recipe: What to compile.
+        recipe: Recipe to compile.
         nworld: Number of copies.
         make_batch: Makes them from a compiled model and the world that it is of.
         calls: Whether steps can call systems.
 
     Attributes:
         nworld: That.
-        recipe: What was compiled.
-        compiled: What it came to.
-        pending: What is to be compiled before the next step: motors, and models that become kinematic.
+        recipe: Compiled recipe.
+        compiled: Compiled model.
+        pending: Parts to compile before the next step: motors, and models that become kinematic.
         batch: The copies.
         layout: Where things are in their arrays.
         state: Views of their states.
@@ -82,7 +82,7 @@ class RunningWorlds:
         sheets: Geoms that have no inside, shape (geoms,).
         sleepy: Whether bodies may fall asleep.
         stale: Whether the placement of links that are not roots has to be computed.
-        computed: How often it was.
+        computed: Number of computations.
         placed: Whether something was put elsewhere since the last step.
         moved: 1 where a system put something elsewhere since the last step, and where one changed
             velocities, else 0, shape (2,).

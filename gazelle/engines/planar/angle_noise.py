@@ -25,7 +25,7 @@ class AngleNoiseScanner(Scanner):
     any number of threads and worlds.
 
     Args:
-        fleet: What it looks at.
+        fleet: Fleet of the rays.
         fan: The beams as they should be.
         mounts: Where they start.
         spread: Standard deviation of the angles of each [rad], shape (mounts,).

@@ -23,11 +23,11 @@ class ConvertedModel:
     """A model and how it is in the plane.
 
     Attributes:
-        model: What it is.
+        model: The model.
         tree: Its links and joints.
         yaw: Heading of its frame at first [rad].
         z: Height of its frame [m].
-        tilt: How its frame leans.
+        tilt: Inclination of its frame.
         still: Whether it never moves: it is part of the statics.
         free: Whether it moves by itself: driven, or pushed off once.
     """

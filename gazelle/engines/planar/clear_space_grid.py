@@ -44,7 +44,7 @@ def clear_space_grid_of(table: PrimitiveTable, *, solid: bool) -> ClearSpaceGrid
     """Return a grid with the cells of the table's bitmap, or some for each of the primitives.
 
     Args:
-        table: What there is.
+        table: Table of primitives.
         solid: Whether the bitmap's cells may be solid instead of having outlines.
     """
     if solid and table.raster is not None:

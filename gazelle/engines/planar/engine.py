@@ -46,7 +46,7 @@ class PlanarEngine:
     files, have its shapes, drives and bounds.
 
     Args:
-        world: What to simulate; collision shapes are cut at the height of lidars and bases.
+        world: World to simulate; collision shapes are cut at the height of lidars and bases.
         nworld: Number of copies.
         time_step: Physics step [s]; the profile's ``kinematic_step`` if None, else its
             ``max_step_size``.
@@ -200,7 +200,7 @@ class PlanarEngine:
         Args:
             body: Its index in the fleet.
             pose: x, y [m] and heading [rad], shape (3,) or (n, 3).
-            worlds: Which worlds.
+            worlds: Worlds.
             height: Of its frame [m], shape () or (n,); as it was if None.
         """
         self._run.fleet.place(body, pose, worlds, height=height)

@@ -43,8 +43,8 @@ class Fan:
         start: Angle of the first beam from the sensor's x axis [rad].
         step: Angle between two beams, counter-clockwise [rad].
         count: Number of beams.
-        reach: How far they go [m].
-        begin: What is nearer is not met [m].
+        reach: Range [m].
+        begin: Nearest range [m].
 
     Raises:
         EngineError: A number cannot be.
@@ -114,7 +114,7 @@ class Scanner:
     """The same fan on some bodies of a fleet.
 
     Args:
-        fleet: What it looks at.
+        fleet: Fleet of the rays.
         fan: The beams.
         mounts: Where they start, the same in all worlds.
         named: Whether to remember what each beam met.
@@ -125,7 +125,7 @@ class Scanner:
 
     Attributes:
         ranges: Of the last scan [m], shape (nworld, mounts, count).
-        names: What each beam met, as ``columns.NAMES`` says, a row a sensor, if ``named``.
+        names: Names that the beams met, as of ``columns.NAMES``, a row a sensor, if ``named``.
         owners: Body of each sensor, counted through all worlds, shape (nworld * mounts,).
         tick: Number of scans requested one by one so far; the noise of a scan depends on it.
 
@@ -219,7 +219,7 @@ class Scanner:
         The array is used again by the next scan.
 
         Args:
-            worlds: Which worlds; all if None.
+            worlds: Worlds; all if None.
 
         Raises:
             EngineError: There is no such world, or they are more than there are.

@@ -39,7 +39,7 @@ class Fleet:
 
     Args:
         bodies: The same in all worlds.
-        statics: What stands still, the same in all worlds.
+        statics: Static parts, the same in all worlds.
         nworld: Number of worlds.
         time_step: Of a step [s].
         euler: Whether a step goes straight and then turns, as in Stage, not along an arc.
@@ -47,7 +47,7 @@ class Fleet:
             nothing, up to a thousand times its own half width a step; else it is looked for where
             each step ends.
         cell: Side of the grid's cells [m].
-        threads: How many share the work; all processors if None.
+        threads: Number of threads; all processors if None.
 
     Attributes:
         changes: Grows whenever bodies move or are put somewhere.
@@ -230,7 +230,7 @@ class Fleet:
         Args:
             body: Its index.
             pose: x, y [m] and heading [rad], shape (3,) or (n, 3).
-            worlds: Which worlds; all if None.
+            worlds: Worlds; all if None.
             height: Of its frame [m], shape () or (n,); as it was if None.
 
         Raises:

@@ -56,7 +56,7 @@ class Body:
         parts: In its own frame.
         pose: Where it is at first: x, y [m], heading [rad].
         z: Height of its frame [m].
-        drive: What moves it; None for nothing but ``Fleet.place``.
+        drive: Drive; None for nothing but ``Fleet.place``.
         family: Bodies of one family neither see nor bump each other; None for its own.
 
     Raises:

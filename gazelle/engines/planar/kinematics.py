@@ -120,7 +120,7 @@ def link_tree(model: Model, tilt: Pose, *, kinematic: bool = False) -> LinkTree:
 
     Args:
         model: The model.
-        tilt: How its frame leans in the frame that moves in the plane.
+        tilt: Inclination of its frame in the frame that moves in the plane.
         kinematic: Whether joints are frozen, as those of a static model are.
 
     Raises:

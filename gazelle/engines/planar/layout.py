@@ -23,7 +23,7 @@ class FleetInput:
     """All that a fleet is made of.
 
     Attributes:
-        world: What to simulate.
+        world: World to simulate.
         time_step: [s].
         motors: Joints with motors and the motors' largest efforts, in the order they were given.
         kinematic: Kinematic models.

@@ -30,7 +30,7 @@ class PlanarRays:
     """The part of ``gazelle.engines.engine.Engine`` that casts rays.
 
     Args:
-        run: What runs.
+        run: Running worlds.
         make_kinematic: The engine's; a sensor needs a body to sit on.
     """
 

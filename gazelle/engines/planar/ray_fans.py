@@ -25,7 +25,7 @@ class Caster:
     Attributes:
         scanner: Casts them.
         begin: Distance of where they begin from where the scanner measures [m].
-        order: Which beam is which ray, shape (rays,).
+        order: Beam of each ray, shape (rays,).
         signed: Casts them too; what is missing is infinite, and minus infinite from inside.
     """
 
@@ -57,7 +57,7 @@ class KeptCaster:
     """A caster as long as nothing turns what its rays hang on.
 
     Attributes:
-        caster: What casts them.
+        caster: Ray caster.
         columns: Of the joints between its model and its link.
         angles: Of those joints when it was made, shape (nworld, n).
         of: Origins of its rays; kept, as it is known by where they are in memory.
@@ -110,7 +110,7 @@ def fan_of(body: int, origins: Floats, directions: Floats, reach: float) -> RayF
         body: Its index.
         origins: In the body's frame [m], shape (rays, 3).
         directions: Unit vectors in the body's frame, shape (rays, 3).
-        reach: How far they go [m].
+        reach: Range [m].
     """
     z = float(origins[0, 2])
     angles = np.arctan2(directions[:, 1], directions[:, 0])

@@ -35,7 +35,7 @@ class Roaming:
     """A controller for all bodies of a fleet that have a drive.
 
     Args:
-        fleet: What it drives.
+        fleet: Fleet to drive.
         scanner: Ranges that it looks at, one sensor a body at most; None to drive blind.
         manner: How.
         seed: Of its turns.

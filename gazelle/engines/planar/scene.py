@@ -79,7 +79,7 @@ def scene_of(
     """Return statics with a grid over them and over an extent.
 
     Args:
-        parts: What stands still.
+        parts: Static parts.
         extent: Lower left and upper right corner of where bodies are at first [m], shape (2, 2).
         side: Wanted side of a cell [m]; larger if there would be too many cells.
         nbody: Bodies in a world.

@@ -23,7 +23,7 @@ class Raster:
     """A bitmap that some primitives are the outline of.
 
     Attributes:
-        cells: What is solid, the lowest row first.
+        cells: Mask of solid cells, the lowest row first.
         low: Lower left corner in the bitmap's frame [m].
         cell: Width and depth of a cell [m].
         pose: x, y [m] and heading [rad] of the frame.

@@ -20,7 +20,7 @@ class SystemSteps:
     Args:
         fleet: Moves bodies.
         joints: Gives joints and rolling bases as kernels see them.
-        axes: How many joints' axes there are.
+        axes: Number of joint axes.
     """
 
     def __init__(self, fleet: Fleet, joints: Callable[[], Joints], axes: int) -> None:
@@ -44,7 +44,7 @@ class SystemSteps:
 
         Args:
             systems: Updated whenever they are due, in this order.
-            count: How many.
+            count: Number of steps.
             now_ns: Time [ns].
 
         Raises:

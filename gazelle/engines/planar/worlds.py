@@ -28,12 +28,12 @@ class RunningPlane:
     """Many copies of a world seen from above, which the parts of the engine share.
 
     Args:
-        recipe: What to make.
+        recipe: Recipe of the batch.
         nworld: Number of copies.
         threads: Native threads; all processors if None.
 
     Attributes:
-        recipe: What was made.
+        recipe: Recipe of the running plane.
         fleet: Moves the bodies.
         layout: Where models, joints and links are among them.
         angles: Of all joints [m or rad], shape (nworld, axes).

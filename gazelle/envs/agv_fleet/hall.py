@@ -47,7 +47,7 @@ def world(agvs: int, *, step: float, samples: int, reach: float) -> World:
     """Return the hall with AGVs, in Stage's words.
 
     Args:
-        agvs: How many; they all stand in the middle.
+        agvs: Number of AGVs; they all stand in the middle.
         step: Of the simulation [s].
         samples: Ranges of each, counter-clockwise all around, from straight ahead.
         reach: Of these [m].

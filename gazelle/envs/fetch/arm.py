@@ -38,7 +38,7 @@ def held_model(
     Args:
         model: As its file says.
         moving: Names of the joints that continue moving; the others stay at zero.
-        changed: What becomes of those.
+        changed: Function applied to the joints that may move.
     """
     child = {joint.child for joint in model.joints}
     roots = [link.name for link in model.links if link.name not in child]

@@ -126,7 +126,7 @@ class FetchVectorEnv(TaskGoalVectorEnv):
 
     Args:
         task: As there.
-        num_envs: How many.
+        num_envs: Number of environments.
         autoreset_mode: See `TaskVectorEnv`.
         options: As there.
     """

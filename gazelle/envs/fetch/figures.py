@@ -27,8 +27,8 @@ class FetchFigures:
         has_object: Whether there is something to move, at which goals are meant.
         fingers_move: Whether the fourth entry of actions moves the fingers.
         in_the_air: Whether half of the goals are above the table.
-        object_range: How far the object begins from the gripper along x and y, at most.
-        goal_range: How far goals are from where the gripper begins, along each axis, at most.
+        object_range: Largest initial distance of the object from the gripper along x and y.
+        goal_range: Largest distance of goals from the gripper's start, along each axis.
         goal_ahead: By how much goals are further along x.
         object_height: Of the object's centre, at rest on the table.
     """

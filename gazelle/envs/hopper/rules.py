@@ -17,7 +17,7 @@ class StandRules:
     Attributes:
         desired: Where the base should be [m].
         desired_yaw: Where it should look [rad].
-        desired_force: What the foot should feel [N].
+        desired_force: Desired contact force of the foot [N].
         lowest: Height of the base below which an episode ends [m].
         highest: Height at which it ends [m].
         steepest: Roll and pitch at which it ends [rad].

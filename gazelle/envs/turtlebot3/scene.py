@@ -23,7 +23,7 @@ class TaskScene:
         nworld: Number of worlds.
 
     Attributes:
-        simulation: What runs.
+        simulation: Simulation.
         robot: The robot in it.
         lidar: Its lidar, as fitted to the task.
 

@@ -16,7 +16,7 @@ class ChannelRules:
 
     Attributes:
         goal: Where to go [m]; its height counts for distances, not for ends.
-        tolerance: How far a place may be off the goal along x and along y [m].
+        tolerance: Tolerance of a place along x and along y [m].
         low: Lower edges of the work space along x and y [m].
         high: Upper edges, which belong to it [m].
         closer_reward: Reward of a step that comes nearer to the goal; others get minus that.

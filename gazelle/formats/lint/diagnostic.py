@@ -14,7 +14,7 @@ class Diagnostic:
 
     Attributes:
         rule: Short name of the rule.
-        message: What is the case.
+        message: Description of the finding.
         why: Why it matters.
         hint: The change to make.
         source: Where.

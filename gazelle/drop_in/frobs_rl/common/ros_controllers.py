@@ -58,8 +58,8 @@ def switch_controllers_srv(
         ns: Namespace of the robot.
         strictness: 1 to do what can be done, 2 for all or nothing.
         start_asap: Start each once its joints are ready.
-        timeout: How long the manager may wait for the robot [s].
-        max_retries: How often a call that broke off is made again.
+        timeout: Longest wait of the manager for the robot [s].
+        max_retries: Number of retries of an interrupted call.
     """
     with controllers(ns, max_retries) as manager:
         manager.switch(

@@ -21,7 +21,7 @@ def init_robot_state_pub(
 
     Args:
         namespace: Of the robot.
-        max_pub_freq: How often it publishes [Hz].
+        max_pub_freq: Publishing rate [Hz].
         launch_new_term: Taken; nothing here needs a terminal.
     """
     del launch_new_term
@@ -63,10 +63,10 @@ def spawn_model_in_gazebo(
         model_urdf_folder: Where the description is.
         ns: Namespace of the robot.
         args_xacro: Such as ``["camera:=true"]``.
-        max_pub_freq: How often its state is published [Hz].
+        max_pub_freq: Publishing rate of its state [Hz].
         rob_st_term: Taken; nothing here needs a terminal.
         gazebo_name: Of the model.
-        gaz_ref_frame: What the pose is seen from.
+        gaz_ref_frame: Reference frame of the pose.
         pos_x: Place [m], with ``pos_y`` and ``pos_z``.
         pos_y: See ``pos_x``.
         pos_z: See ``pos_x``.

@@ -42,7 +42,7 @@ class RobotBasicEnv(gymnasium.Env[Any, Any]):
         controller_file: YAML with the controllers' parameters, in the package's ``config``.
         controller_list: Controllers to load and start.
         urdf_xacro_args: Such as ``["camera:=true"]``.
-        rob_state_publisher_max_freq: How often its state is published [Hz].
+        rob_state_publisher_max_freq: Publishing rate of its state [Hz].
         rob_st_term: Taken; nothing here needs a terminal.
         model_pos_x: Place [m], with ``model_pos_y`` and ``model_pos_z``.
         model_pos_y: See ``model_pos_x``.

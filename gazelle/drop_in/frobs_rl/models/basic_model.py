@@ -23,7 +23,7 @@ class BasicModel:
     """A model of Stable-Baselines3 with parameters below ``NS/model_params``.
 
     Args:
-        env: What it learns in.
+        env: Environment for learning.
         save_model_path: The folder of its checkpoints and models; with ``load_trained`` the model's file.
         log_path: The folder of its logs.
         load_trained: Load a model that is used as it is.
@@ -203,7 +203,7 @@ class BasicModel:
         """Return the action for an observation, and the state of a recurrent policy.
 
         Args:
-            observation: What is seen.
+            observation: Observation.
             state: Of a recurrent policy.
             mask: Where episodes begin, for a recurrent policy.
             deterministic: The best action instead of a drawn one.

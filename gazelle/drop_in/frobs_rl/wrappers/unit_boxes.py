@@ -16,7 +16,7 @@ class UnitBox:
 
     Args:
         space: The box.
-        what: What is in it, for the error.
+        what: Content, for the error.
 
     Attributes:
         low: Lower bounds of the box.

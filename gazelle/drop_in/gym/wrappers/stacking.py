@@ -32,7 +32,7 @@ class FrameStack(ObservationWrapper):
 
     Args:
         env: Any environment with a box of observations.
-        num_stack: How many.
+        num_stack: Number of frames.
     """
 
     def __init__(self, env: Any, num_stack: int, lz4_compress: bool = False) -> None:  # noqa: FBT001, FBT002

@@ -18,7 +18,7 @@ class CartPoleEnv(TopicRobotEnv):
     """A cart on a rail with a pole; its controllers are reset with every episode, and time too.
 
     Args:
-        control_type: What the controllers take: ``velocity``, ``position`` or ``effort``.
+        control_type: Commands of the controllers: ``velocity``, ``position`` or ``effort``.
         ros_ws_abspath: A workspace that is searched for the robot's package too.
 
     Raises:

@@ -61,9 +61,9 @@ class HopperEnv(TopicRobotEnv):
 
         Args:
             joints_array: Positions [rad].
-            epsilon: How near they have to come [rad].
-            update_rate: How often that is looked at [Hz].
-            time_sleep: How long to wait where it is not [s].
+            epsilon: Tolerance [rad].
+            update_rate: Rate of the checks [Hz].
+            time_sleep: Time to wait otherwise [s].
             check_position: Wait until they are there, for 2 simulated seconds at most.
         """
         number = std_msgs.msg.Float64

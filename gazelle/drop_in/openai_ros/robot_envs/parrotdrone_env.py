@@ -73,7 +73,7 @@ class ParrotDroneEnv(TopicRobotEnv):
             heigh_value_to_check: Height [m].
             smaller_than: Whether it shall be below that.
             epsilon: Taken, as openai_ros has it, and without effect [m].
-            update_rate: How often to look [Hz of simulated time].
+            update_rate: Rate of the checks [Hz of simulated time].
         """
         del epsilon
         for _ in range(math.ceil(_LONGEST_S * update_rate)):

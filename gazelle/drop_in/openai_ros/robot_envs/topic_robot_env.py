@@ -50,7 +50,7 @@ class TopicRobotEnv(RobotGazeboEnv):
     Attributes:
         package: With the launch file.
         launch_file: Spawns the robot.
-        sensors: What is subscribed.
+        sensors: Subscribed topics.
         robot_name_space: Of its controllers.
         controllers_list: Its controllers.
         reset_controls: Whether they are reset with every episode.

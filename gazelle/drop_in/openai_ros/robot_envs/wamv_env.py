@@ -30,7 +30,7 @@ class WamvEnv(TopicRobotEnv):
         Args:
             right_propeller_speed: From -1 (full astern) to 1 (full ahead).
             left_propeller_speed: Likewise.
-            time_sleep: How long [s of simulated time].
+            time_sleep: Duration [s of simulated time].
         """
         drive = usv_msgs.msg.UsvDrive
         for publisher in self.publishers_array:

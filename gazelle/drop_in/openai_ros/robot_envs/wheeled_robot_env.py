@@ -31,8 +31,8 @@ class WheeledRobotEnv(TopicRobotEnv):
         Args:
             linear_speed: Forward [m/s].
             angular_speed: To the left [rad/s].
-            epsilon: How near the odometry has to come to it, where that is waited for [m/s].
-            update_rate: How often that is looked at [Hz].
+            epsilon: Tolerance of the odometry's velocity, where that is waited for [m/s].
+            update_rate: Rate of the checks [Hz].
             min_laser_distance: Taken, as openai_ros has it, and without effect [m].
         """
         del min_laser_distance
@@ -54,8 +54,8 @@ class WheeledRobotEnv(TopicRobotEnv):
 
         Args:
             cmd_vel_value: A ``geometry_msgs/Twist``; only how fast it goes forward is compared.
-            epsilon: How near is near enough [m/s].
-            update_rate: How often to look [Hz of simulated time].
+            epsilon: Tolerance [m/s].
+            update_rate: Rate of the checks [Hz of simulated time].
         """
         target = cmd_vel_value.linear.x
         for _ in range(math.ceil(10.0 * update_rate)):

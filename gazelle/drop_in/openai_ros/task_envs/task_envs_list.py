@@ -50,7 +50,7 @@ def RegisterOpenAI_Ros_Env(  # noqa: N802  # openai_ros' name
     Args:
         task_env: Its name.
         max_episode_steps: After which an episode is cut.
-        timestep_limit_per_episode: What that was called earlier.
+        timestep_limit_per_episode: Earlier name of that parameter.
     """
     found = MODULES.get(task_env)
     if found is None and task_env in WITHOUT_ROBOT:

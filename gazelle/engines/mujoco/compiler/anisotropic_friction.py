@@ -31,7 +31,7 @@ def directional_friction_of(collision: Collision, placed: Pose) -> DirectionalFr
 
     Args:
         collision: The description.
-        placed: How it stands in the frame of MuJoCo's body.
+        placed: Pose in the frame of MuJoCo's body.
     """
     fdir1 = np.array(collision.surface.friction.fdir1, np.float64)
     size = np.linalg.norm(fdir1)

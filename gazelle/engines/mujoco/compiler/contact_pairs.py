@@ -74,7 +74,7 @@ class ContactGeom:
         body: Scoped name of its body; empty for the world.
         model: Name of its top-level model.
         mass: Of that model [kg]; infinite when it does not move.
-        share: What of that mass stands on one contact point if all of its springs touch [kg].
+        share: Share of that mass on one contact point if all of its springs touch [kg].
         collides_with_own: Whether it collides with its own model.
         collision: The description.
         placed: Where it is in the frame of its body in MuJoCo.

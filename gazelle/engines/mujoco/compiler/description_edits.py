@@ -15,7 +15,7 @@ def with_inertial(world: World, scoped: str, kind: str, values: NDArray[np.float
     """Return the world with the centre of mass or the inertia of a link replaced.
 
     Args:
-        world: What is changed.
+        world: World to change.
         scoped: Name of the link.
         kind: ``link_centre`` or ``link_inertia``.
         values: As the engine's parameter of that kind, in the axes of the link.

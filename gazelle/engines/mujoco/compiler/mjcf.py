@@ -29,7 +29,7 @@ def to_mjcf(world: World, *, time_step: float | None = None, visuals: bool = Tru
     counterpart and are left out.
 
     Args:
-        world: What to write.
+        world: World to write.
         time_step: Physics step [s]; the world's ``max_step_size`` if None.
         visuals: Add the visuals, in group 1, which never collide.
 

@@ -49,7 +49,7 @@ def set_options(
     """Set what holds for the whole world.
 
     Args:
-        spec: What MuJoCo compiles.
+        spec: Specification for MuJoCo's compiler.
         world: The description.
         time_step: Physics step [s].
         kinematic: Names of kinematic models.

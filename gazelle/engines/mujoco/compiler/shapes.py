@@ -63,12 +63,12 @@ class ShapeBuilder:
     """Makes geoms in one ``MjSpec``; meshes used twice are stored once.
 
     Attributes:
-        spec: What the geoms are for.
+        spec: Specification of the geoms.
         name_mesh: Gives a mesh its name, at once or later.
         meshes: Names of what is stored already.
         pieces: Of meshes in pieces, the names of those and their middles, shape (n, 3) [m].
         heightmaps: Likewise.
-        grounds: What was found out on meshes that may be ground.
+        grounds: Checks of meshes that may be ground.
     """
 
     spec: mujoco.MjSpec

@@ -116,7 +116,7 @@ class Draft:
     """A MuJoCo model that is not compiled yet.
 
     Attributes:
-        spec: What MuJoCo compiles.
+        spec: Specification for MuJoCo's compiler.
         shapes: That made its geoms, and knows the meshes in it.
         bodies: By model name, in order.
         geoms: Names of MuJoCo's geoms by scoped collision.

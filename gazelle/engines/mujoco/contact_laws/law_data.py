@@ -58,7 +58,7 @@ class LawSelection:
         bounces: Whether some contacts bounce.
         rubs: Geoms that rub by direction, by name.
         tumbling: Names of free bodies that tumble freely.
-        motors: How many motors hold a velocity.
+        motors: Number of motors that hold a velocity.
         slides: Whether something that moves rubs.
         treads: Joints of wheels by what may be their treads, a geom.
         exits: Velocities at which geoms leave overlaps, by name [m/s].

@@ -26,7 +26,7 @@ def put_root(
         slot: The root.
         position: [m], shape (3,) or (n, 3).
         quaternion: (x, y, z, w), shape (4,) or (n, 4).
-        worlds: Which worlds.
+        worlds: Worlds.
     """
     rows = rows_of(worlds)
     run.placed = True
