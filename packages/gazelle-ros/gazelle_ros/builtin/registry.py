@@ -103,6 +103,9 @@ _OWN = {
             "scan_to_scan_filter_chain": "gazelle_ros.builtin.scans.filters.chain:main",
         }, {"scan_to_scan_filter_chain": "gazelle_ros.builtin.scans.filters.chain:ScanFilterChain"}),
         BuiltinPackage("nodelet", {"nodelet": "gazelle_ros.builtin.nodelets.command:main"}),
+        BuiltinPackage("octomap_server", {
+            "octomap_server_node": "gazelle_ros.builtin.octomap.server:main",
+        }, {"OctomapServerNodelet": "gazelle_ros.builtin.octomap.server:OctomapServer"}),
         BuiltinPackage("pointcloud_to_laserscan", {
             "pointcloud_to_laserscan_node": "gazelle_ros.builtin.scans.pointcloud:scan_main",
             "laserscan_to_pointcloud_node": "gazelle_ros.builtin.scans.pointcloud:cloud_main",

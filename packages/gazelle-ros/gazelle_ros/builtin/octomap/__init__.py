@@ -1,0 +1,1 @@
+"""The node ``octomap_server``: occupied and free space in three dimensions."""
