@@ -31,7 +31,7 @@ class Stream:
 
     Args:
         seed: The run's seed, any int.
-        name: What the numbers are for; different names give independent numbers.
+        name: Purpose of the numbers; different names give independent numbers.
         nworld: Number of worlds.
     """
 

@@ -57,7 +57,7 @@ def scan(root: Path, listings: dict[Path, Listing]) -> Index:
 
     Args:
         root: Where the search begins.
-        listings: What is known of folders already; those met are added.
+        listings: Known folders; new ones are added.
     """
     index = Index()
     level = [root]

@@ -40,9 +40,9 @@ class Note:
     """A remark about the file, that becomes a warning when the load is done.
 
     Attributes:
-        message: What is the case, and what was made of it.
+        message: Description of the fault and its replacement.
         source: Where.
-        hint: What to do about it.
+        hint: Fix.
         severity: An error is what the format does not allow, and Gazebo continues with.
         rule: Name of what is found, where a check finds it in a description too.
     """
@@ -62,8 +62,8 @@ class Reading:
         resolver: Finds files.
         folder: Folder that relative names start from.
         xacro_args: Arguments for xacro files.
-        misses: What was not found.
-        notes: What is not done as written, in the order of finding it.
+        misses: Missing files.
+        notes: Notes on parts that are not simulated as written, in the order found.
         including: Files being read, outermost first.
     """
 

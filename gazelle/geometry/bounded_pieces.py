@@ -43,7 +43,7 @@ def pieces_within(
         number: The part of each face, shape (m,).
         closed: Whether each part is closed, shape (parts,).
         whole: Whether each part is convex, and stays as it is, shape (parts,).
-        bound: How far they may reach beyond the surface [m]; farther where more than
+        bound: Largest distance of pieces beyond the surface [m]; more where more than
             ``MOST_PIECES`` would be needed.
     """
     solid, skin = closed[number], min(skin_of(surface), max(bound, 1e-3))

@@ -65,9 +65,9 @@ class ConvexPieces:
     Attributes:
         solids: Each is its vertices' convex hull.
         whole: Whether the one piece is the mesh itself, nearly convex.
-        gap: How far from the mesh a surface of the pieces may be [m]; inwards of a closed
+        gap: Largest distance of surfaces of the pieces from the mesh [m]; inwards of a closed
             body, and up to a centimetre behind sheets, does not count.
-        promised: What the gap is, unless the mesh is too rough for that [m].
+        promised: Gap, unless the mesh is too rough for it [m].
         closed: Whether the mesh has an inside.
     """
 

@@ -66,7 +66,7 @@ class Polygons:
 
     Attributes:
         surface: Whose triangles they are.
-        count: How many there are.
+        count: Number of polygons.
     """
 
     def __init__(self, surface: WeldedSurface) -> None:
@@ -90,7 +90,7 @@ class Polygons:
         """Remove edges until none is left that may be removed.
 
         Args:
-            tolerance: How far the vertices of a polygon may be apart across its plane [m].
+            tolerance: Largest distance of a polygon's vertices across its plane [m].
             notches: Whether notches of that depth are filled.
         """
         depth = tolerance if notches else 0.0

@@ -29,7 +29,7 @@ class Ground:
         heights: [m], shape (rows, columns); rows along y, columns along x, from the least on.
         low: Least x, y [m].
         high: Greatest x, y [m].
-        gaps: How far the mesh is from the heights at most [m], if each cell is split from its
+        gaps: Largest distance of the mesh from the heights [m], if each cell is split from its
             corner (0, 0) to (1, 1), and if it is split from (1, 0) to (0, 1).
     """
 

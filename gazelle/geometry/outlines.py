@@ -21,7 +21,7 @@ class Planar:
     Attributes:
         points: Corners of one after the other [m], shape (n, 2).
         rows: Whose each is, rising, shape (n,).
-        count: How many polygons there may be.
+        count: Largest number of polygons.
     """
 
     points: Floats

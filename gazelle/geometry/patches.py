@@ -50,7 +50,7 @@ class Patches:
 
     Attributes:
         solids: Vertices and faces of each.
-        gap: How far their outer sides are off the surface at most [m].
+        gap: Largest distance of their outer sides off the surface [m].
     """
 
     solids: list[Solid]

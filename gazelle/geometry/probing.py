@@ -40,7 +40,7 @@ class _Feet:
     Attributes:
         points: [m], shape (n, 3).
         ways: Unit vectors into the air, shape (n, 3).
-        lengths: How far the places in the air are along them [m], shape (n,).
+        lengths: Positions of the points in the air along them [m], shape (n,).
         faces: The triangle of each, shape (n,).
     """
 

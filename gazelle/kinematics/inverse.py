@@ -37,7 +37,7 @@ class IkSolutions:
     Attributes:
         positions: Of the group's joints [m or rad], NaN where none was found, shape (n, joints).
         found: Where one was, shape (n,).
-        attempts: How many starts it took, shape (n,).
+        attempts: Number of starts, shape (n,).
     """
 
     positions: Floats
@@ -58,7 +58,7 @@ class InverseKinematics:
         link: That shall be there; the group's tip if None.
         aim: ``pose``, or only its ``position`` or ``orientation``.
         tolerance: Of the distance [m] and the angle [rad].
-        attempts: How often it begins, at most.
+        attempts: Largest number of starts.
         seed: Of the positions drawn.
 
     Raises:

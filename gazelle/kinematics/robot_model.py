@@ -35,7 +35,7 @@ class RobotModel:
 
     Args:
         model: The robot.
-        semantics: What an SRDF file says of it; without one, groups can be made by ``chain``.
+        semantics: Semantics of an SRDF file; without one, groups can be made by ``chain``.
         limits: Limits by joint, which take the place of the description's, as a ``joint_limits.yaml``
             of MoveIt says them (``JointBounds.with_parameters``).
 

@@ -28,12 +28,12 @@ class TreeLink:
 
     Attributes:
         name: Scoped name, ``model::link``.
-        link: What it is.
+        link: The link.
         parent: Scoped name of the parent body; None for the world.
         pose: In the parent body's frame, or in the world, with all joints at zero.
         joint: The joint to its parent, if any.
         joint_name: That joint's scoped name.
-        root: How a body without a joint moves; None for one with a joint.
+        root: Motion of a body without a joint; None for one with a joint.
         self_collide: Whether it collides with bodies of its own model.
     """
 
@@ -63,7 +63,7 @@ class Closure:
 
     Attributes:
         name: Scoped name.
-        joint: What it is; parent and child are scoped, or ``world``.
+        joint: The joint; parent and child are scoped, or ``world``.
         pose: The joint frame in the child body's frame.
     """
 

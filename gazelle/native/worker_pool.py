@@ -65,7 +65,7 @@ class WorkerPool:
     """Some threads, started when there is enough to do for more than one.
 
     Args:
-        size: How many; all processors if None.
+        size: Number of threads; all processors if None.
 
     Raises:
         EngineError: ``size`` is less than 1.
@@ -84,7 +84,7 @@ class WorkerPool:
 
         Args:
             work: Called at once by several threads, each with a part of its own.
-            count: How much there is to do.
+            count: Number of items to share.
             least: No part is smaller, if there is that much.
         """
         parts = min(self.size, count // least)
@@ -98,7 +98,7 @@ class WorkerPool:
 
         Args:
             work: Called by several threads, each with a number of its own from 0 on.
-            parts: How many are worth it.
+            parts: Number of useful parts.
         """
         parts = min(self.size, parts)
         if parts <= 1:

@@ -46,7 +46,7 @@ class Limits:
         gain: Speed for each metre to go [1/s].
         turn_gain: Yaw rate for each radian to turn [1/s].
         turn_integral: Gain on the integral of the angle, for robots that stick [1/s²].
-        turn_most: What the integral may add at most [rad/s].
+        turn_most: Largest contribution of the integral [rad/s].
     """
 
     linear: float = 0.5
@@ -77,8 +77,8 @@ class Motions:
         limits: Of all of them.
 
     Attributes:
-        outcome: How each robot's last motion stands, values of ``Outcome``, shape (count,).
-        taken: How long it took, or takes so far [s], shape (count,).
+        outcome: Outcome of each robot's last motion, values of ``Outcome``, shape (count,).
+        taken: Duration so far [s], shape (count,).
     """
 
     def __init__(self, count: int = 1, limits: Limits | None = None) -> None:

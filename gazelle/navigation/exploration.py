@@ -21,11 +21,11 @@ class ExploreSettings:
     """Names and defaults are those of ``explore_lite``.
 
     Attributes:
-        planner_frequency: How often to look where to go [Hz].
+        planner_frequency: Rate of planning [Hz].
         progress_timeout: A goal that comes no nearer for so long is given up [s].
-        potential_scale: What a metre to a frontier costs.
+        potential_scale: Cost of a metre to a frontier.
         orientation_scale: Without effect, as in the original.
-        gain_scale: What a metre of a frontier is worth.
+        gain_scale: Value of a metre of a frontier.
         min_frontier_size: Shorter frontiers do not count [m].
     """
 
@@ -66,7 +66,7 @@ class Explorer:
     """Goes for the frontier that is worth most, until none is left.
 
     Args:
-        settings: What they are worth.
+        settings: Weights.
         resolution: Of the map: side of a cell [m].
     """
 

@@ -92,7 +92,7 @@ class OccupancyGrid:
         Args:
             place: Of the scanner (x, y) [m].
             ends: Where rays end [m], shape (n, 2).
-            seen: Which of them hit something, shape (n,); the others are free up to the end.
+            seen: Mask of beams with a hit, shape (n,); the others are free up to the end.
         """
         start = np.asarray(place, np.float64)
         self.include(np.concatenate((ends, start[None])))

@@ -48,7 +48,7 @@ class LiveMap:
         Args:
             time: Of the scan [s].
             odom: Pose of the robot by odometry then.
-            scan: What was seen.
+            scan: Laser scan.
         """
         ranges = scan.ranges.copy()
         # What is too near is as good as nothing.

@@ -61,7 +61,7 @@ class BoundedPid:
         Args:
             error: Shape (n,), or one number for all.
             dt: Time since the last update [s]; with 0 nothing is integrated or derived.
-            rows: Which loops; all if None.
+            rows: Loops; all if None.
 
         Returns:
             Shape (n,).

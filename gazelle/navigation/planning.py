@@ -19,7 +19,7 @@ def plan(grid: OccupancyGrid, start: Floats, goal: Floats, limits: BaseLimits) -
     """Return a path from place to place, as far from obstacles as is worth it.
 
     Args:
-        grid: What is known; it grows to hold both places. Unknown ground counts as free.
+        grid: Known map; it grows to hold both places. Unknown ground counts as free.
         start: (x, y) [m].
         goal: (x, y) [m]; if an obstacle is too near, the free place nearest to it is taken.
         limits: Of the base.

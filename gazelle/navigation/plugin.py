@@ -84,7 +84,7 @@ class GoToGoal(ModelPlugin):
 
         Args:
             goal: In the frame of the odometry.
-            worlds: Which worlds; all if None.
+            worlds: Worlds; all if None.
 
         Raises:
             SimulationError: A number of the goal is not finite, or there is nothing to drive with.

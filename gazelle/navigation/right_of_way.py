@@ -42,7 +42,7 @@ class RightOfWaySettings:
     Attributes:
         enabled: Whether the robot yields, and others yield to it.
         priority: The greater one goes first; among equals the first by name.
-        patience: How long it stands before anything is done [s].
+        patience: Time blocked before acting [s].
     """
 
     enabled: bool = False
@@ -131,7 +131,7 @@ class _Encounter:
         leader: That.
         goal: Its goal.
         path: Its path, shape (n, 2) [m].
-        along: How far along it each point is, shape (n,) [m].
+        along: Distance along it of each point, shape (n,) [m].
         waiting: The others.
         begun: When the others began to yield [s].
         involved: Names of all robots still involved.

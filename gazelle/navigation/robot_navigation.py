@@ -140,7 +140,7 @@ class RobotNavigation(ModelPlugin):
             x: In the map's frame: the world's, unless a map was given [m].
             y: Likewise [m].
             yaw: Heading to take there [rad]; that from here to there if None.
-            worlds: Which worlds; all if None.
+            worlds: Worlds; all if None.
 
         Raises:
             SimulationError: There is nothing at the laser's height to make a map of.
@@ -165,7 +165,7 @@ class RobotNavigation(ModelPlugin):
 
         Args:
             settings: As of ``explore_lite``.
-            worlds: Which worlds; all if None.
+            worlds: Worlds; all if None.
         """
         some = self._some(worlds)
         for world in some:

@@ -40,7 +40,7 @@ class WorldPilot:
         right_of_way: Settings for `RightOfWay`.
 
     Attributes:
-        outcome: How the last goal ended.
+        outcome: Outcome of the last goal.
         text: Its message.
         path: The last global plan to the goal, shape (n, 3): x, y and heading [m, rad].
         grid: The map; None before the first scan of one that is built while driving.

@@ -66,7 +66,7 @@ def blended(points: Floats, deviation: float) -> PathPieces:
 
     Args:
         points: Each another one than the last, shape (m, n), m at least 2.
-        deviation: How far the path may be off at a corner, at most.
+        deviation: Largest deviation of the path at a corner.
     """
     pieces: list[tuple[float, float, Floats, Floats, Floats]] = []
     zero = np.zeros(points.shape[1])

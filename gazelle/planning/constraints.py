@@ -27,8 +27,8 @@ class JointConstraint:
     Attributes:
         joint: Its variable.
         position: [m or rad].
-        above: How far it may be above that.
-        below: How far it may be below that.
+        above: Tolerance above that.
+        below: Tolerance below that.
     """
 
     joint: str
@@ -117,7 +117,7 @@ class OrientationConstraint:
         link: Its name.
         orientation: In the robot's frame; the position of the pose does not count.
         tolerances: About x, y and z [rad].
-        measure: What the angles are: ``euler`` angles about the turned x, y and z axes, or a
+        measure: Kind of the angles: ``euler`` angles about the turned x, y and z axes, or a
             ``rotation vector``; both of the turn that is missing, in the target frame.
     """
 

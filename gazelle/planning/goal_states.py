@@ -38,7 +38,7 @@ class GoalStates:
     Args:
         validity: Of the group; requests start at its state.
         start: Positions of the group, shape (n,).
-        link: What poses are of; the group's tip if None.
+        link: Link of the poses; the group's tip if None.
         seed: Of what is drawn.
     """
 

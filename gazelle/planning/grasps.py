@@ -19,7 +19,7 @@ class GripperTranslation:
     Attributes:
         direction: Of any length but zero.
         desired: Length without obstacles [m].
-        minimum: How far at least [m].
+        minimum: Smallest distance [m].
         frame: Link of the direction's axes, as it is turned at the start; those of
             the robot's frame if empty.
     """
@@ -56,13 +56,13 @@ class Grasp:
 
     Attributes:
         pose: Where the link is when the gripper closes, in the robot's frame.
-        approach: How it gets there.
+        approach: Approach.
         retreat: Where it goes then.
         open: Positions of the gripper's joints before the grasp [m or rad]; as they are if empty.
         closed: Commanded positions that hold the object.
         effort: Largest one of the gripper [N or N m]; its controller's if zero.
         link: That the pose is of; the group's tip if empty.
-        touches: What the hand may touch beside the thing.
+        touches: Links and objects that the hand may touch beside the object.
         quality: Better ones are tried first.
         name: For people.
     """
@@ -86,11 +86,11 @@ class PlaceLocation:
 
     Attributes:
         pose: Of the thing in the robot's frame.
-        approach: How it gets there.
+        approach: Approach.
         retreat: Where the hand goes then.
         open: Positions of the gripper's joints that release.
         of_tip: Whether the pose is of the group's tip instead.
-        touches: What the hand may touch beside the thing.
+        touches: Links and objects that the hand may touch beside the object.
         quality: Better ones are tried first.
         name: For people.
     """
@@ -116,8 +116,8 @@ class ParallelHand:
         link: Between the tips of the fingers; fixed to the group's tip.
         open: Positions of the fingers' joints, opened.
         closed: Closed.
-        width: How wide it opens [m].
-        depth: How far the fingers reach beyond the link [m]: as deep as it may go over a thing.
+        width: Opening [m].
+        depth: Reach of the fingers beyond the link [m]: the deepest grasp over an object.
         effort: That it grips with [N]; its controller's if zero.
     """
 
@@ -139,8 +139,8 @@ def box_grasps(
         hand: That takes it.
         pose: Of the box in the robot's frame.
         size: Of the box [m].
-        approach: How far it comes straight [m].
-        lift: How far it is lifted [m], half as far at least.
+        approach: Length of the straight approach [m].
+        lift: Height of the lift [m], at least half of it.
 
     Returns:
         Best first: from above, then the more they point down. None where it is too wide.

@@ -49,7 +49,7 @@ class RobotGripper:
     Args:
         robot: As ``Simulation.spawn`` gave it.
         name: Of the running controller; the only one with a gripper's action if None.
-        world: Which of the simulation's worlds.
+        world: World of the simulation.
 
     Attributes:
         name: Of the controller.

@@ -43,7 +43,7 @@ class GroupPlan:
     """A plan for a robot in a simulation.
 
     Attributes:
-        plan: What it does.
+        plan: Plan.
         fraction: Completed part of the request: less than 1 only for straight paths.
         reason: Why it ends before.
     """
@@ -88,16 +88,16 @@ class Group:
             the group, with ``_controller`` after it or not.
         semantics: The SRDF, or a file of it. If None, that of the robot's ``NAME_moveit_config``
             package is looked for.
-        options: How to plan.
+        options: Planning options.
         limits: Limits of joints, in place of the description's.
         tip: The link that poses are of, if the SRDF does not name one.
-        world: Which of the simulation's worlds.
+        world: World of the simulation.
 
     Attributes:
         robot: The robot.
-        scene: What must not be touched, in the frame of the robot's root link. Add to it.
+        scene: Planning scene, in the frame of the robot's root link. Add to it.
         model: The robot's group.
-        options: How to plan; may be replaced.
+        options: Planning options; may be replaced.
 
     Raises:
         PlanningError: There is no such group.
@@ -177,7 +177,7 @@ class Group:
         Each of their links becomes an object ``MODEL::LINK``; seen again it is replaced.
 
         Args:
-            names: Which ones; all but this robot if none.
+            names: Models; all but this robot if none.
 
         Raises:
             PlanningError: There is no such model.
@@ -216,7 +216,7 @@ class Group:
             goal: A pose of the tip in the frame of the robot's root link, the name of a state of the
                 group, positions by joint or of all joints, or constraints.
             constraints: That hold all along.
-            link: What a pose is of; the tip if None.
+            link: Link of a pose; the tip if None.
 
         Raises:
             NoPlanError: There is none, and why.
@@ -282,7 +282,7 @@ class Group:
             grasps: Of which one is taken, better ones first (``box_grasps``).
             effector: Name of the end effector in the SRDF; the group's one if empty.
             gripper: That closes; the robot's one if None.
-            rules: What may touch.
+            rules: Contact rules.
 
         Raises:
             NoPlanError: No grasp can be done, and why.

@@ -32,7 +32,7 @@ def checked_steps(steps: float, step: float) -> int:
 
     Args:
         steps: Number of steps on a straight path.
-        step: How long each is, for the message [m].
+        step: Length of each step, for the message [m].
 
     Raises:
         PlanningError: They are too many.

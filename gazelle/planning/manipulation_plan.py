@@ -25,7 +25,7 @@ class ManipulationStage:
         motion: Of the arm.
         posture: Where joints of the gripper go; empty if the arm moves.
         effort: Largest one of the gripper; its controller's if zero.
-        then: What becomes of the thing in the scene when the stage is over.
+        then: Change of the scene after the stage.
     """
 
     name: str
@@ -43,7 +43,7 @@ class ManipulationPlan:
     Attributes:
         object: The thing.
         stages: One after another.
-        choice: Which of the grasps or places was taken, counted as they were given.
+        choice: Index of the chosen grasp or place.
         link: That holds the thing.
         touch_links: Links that it may touch then.
         seconds: That planning took, of the wall's clock.
@@ -63,10 +63,10 @@ class ContactRules:
     """Contacts that are allowed while objects are taken and put down.
 
     Attributes:
-        support: What the thing stands on; it may touch that. If empty, what it touches anyhow.
+        support: Support of the object, which may touch it. If empty, the current contacts.
         hand_on_support: Whether the hand may touch that, too.
         touch_links: Links that the thing may touch when it is held, beside the hand's.
-        touches: What the hand may touch.
+        touches: Links and objects that the hand may touch.
     """
 
     support: str = ""

@@ -54,7 +54,7 @@ class PlanOptions:
         time: To plan, at most [s].
         velocity: Factor of the joints' velocity limits, within (0, 1].
         acceleration: Factor of their acceleration limits, within (0, 1].
-        timing: How times are given to the path.
+        timing: Time parameterization of the path.
         seed: The same one gives the same plan.
         segment: Distance of states that are checked along a motion, as a fraction of the extent.
         edge: Longest edge of the planner's tree; as the planner likes if zero.
@@ -109,9 +109,9 @@ class MotionPlanner:
     """Plans motions of a group in a scene.
 
     Args:
-        scene: What must not be touched.
+        scene: Planning scene.
         group: Group of the joints.
-        options: How to plan.
+        options: Planning options.
 
     Raises:
         PlanningError: There is no such planner.
@@ -143,7 +143,7 @@ class MotionPlanner:
             goal: A pose of the link in the robot's frame, the name of a state of the group, positions
                 by joint or of all joints, or constraints.
             start: Of all variables; the scene's state if None. Shape (variables,).
-            link: What a pose is of; the group's tip if None.
+            link: Link of a pose; the group's tip if None.
             constraints: That hold all along.
 
         Raises:
@@ -185,7 +185,7 @@ class MotionPlanner:
             poses: One after another, in the robot's frame.
             max_step: Longest step [m]; turns are in steps of 3.5 times as many radians.
             start: Of all variables; the scene's state if None. Shape (variables,).
-            link: Which goes straight; the group's tip if None.
+            link: Link on a straight path; the group's tip if None.
             jumps: Where to cut it off.
             avoid_collisions: Whether it ends where it would collide.
             constraints: That hold all along.

@@ -47,7 +47,7 @@ class PickPlacePlanner:
         scene: With the thing; it stays as it is.
         group: The arm.
         effector: Name of the end effector; the group's one if empty.
-        options: How to plan.
+        options: Planning options.
 
     Raises:
         PlanningError: The group has no such end effector.
@@ -87,7 +87,7 @@ class PickPlacePlanner:
             name: Of the thing.
             grasps: Of which one is taken, better ones first.
             start: Of all variables; the scene's state if None. Shape (variables,).
-            rules: What may touch.
+            rules: Contact rules.
             constraints: That hold until the approach.
 
         Raises:

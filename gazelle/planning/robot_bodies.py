@@ -23,7 +23,7 @@ def robot_bodies(
     Args:
         robot: The robot.
         scale: Factors of shapes, by link.
-        attached: What links hold.
+        attached: Objects held by links.
     """
     names = [f" {node.name}" for node in robot.nodes]
     bodies = [

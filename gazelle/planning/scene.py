@@ -36,8 +36,8 @@ class PlanningScene:
     Attributes:
         robot: The robot.
         state: Where its joints are now, shape (variables,).
-        objects: What stands around, by name.
-        attached: What links hold, by name.
+        objects: Objects around the robot, by name.
+        attached: Objects held by links, by name.
 
     Raises:
         PlanningError: A link is not there.

@@ -17,7 +17,7 @@ class SceneContact:
     Attributes:
         first: Name of a link or an object.
         second: Likewise.
-        depth: How far they are within each other [m], padding counted.
+        depth: Penetration depth [m], padding included.
         point: In the robot's frame [m].
         normal: From the first to the second.
     """

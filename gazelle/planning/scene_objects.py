@@ -34,9 +34,9 @@ class SceneObject:
         name: Unique in its scene.
         shapes: With their poses in the object's frame.
         pose: Of the object: in the robot's frame, or in that of the link that holds it.
-        type: What kind of thing it is, for people.
+        type: Kind of object, for people.
         frames: Named frames of it, in its own.
-        octree: What its boxes are made of, where it is one.
+        octree: Octree of its boxes, if any.
     """
 
     name: str

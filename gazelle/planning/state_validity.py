@@ -23,7 +23,7 @@ class StateValidity:
     A change of the scene that is made later does not count.
 
     Args:
-        scene: What must not be touched.
+        scene: Planning scene.
         group: Group of the positions.
         state: Of all variables, shape (variables,).
         constraints: That hold in every state.
@@ -32,7 +32,7 @@ class StateValidity:
 
     Attributes:
         resolution: That distance, as ``JointModelGroup.distance`` measures it.
-        checks: How many states have been checked.
+        checks: Number of checked states.
     """
 
     def __init__(

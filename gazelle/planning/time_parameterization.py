@@ -106,7 +106,7 @@ def parameterize(
         limits: Of the joints, finite.
         algorithm: ``time optimal``: as fast as the limits let it be, corners rounded off, points at
             equal times; ``iterative parabolic``: through the points themselves, slower.
-        tolerance: How far corners may be rounded off.
+        tolerance: Largest deviation at corners.
 
     Raises:
         PlanningError: There is no point, or the algorithm is unknown.

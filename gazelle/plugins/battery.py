@@ -19,7 +19,7 @@ class BatteryConsumer(ModelPlugin):
     Attributes:
         robot: The model.
         battery: Name of the battery.
-        power: What it takes [W].
+        power: Consumed power [W].
     """
 
     def load(self, robot: Robot, parameters: Parameters) -> None:

@@ -44,7 +44,7 @@ class CommandTables:
 
         Args:
             now_ns: Simulated time [ns].
-            longest: How long a command holds [s], shape (n,).
+            longest: Duration of a command [s], shape (n,).
         """
         new = self.revision != self.seen
         long = (now_ns - self.since_ns) / NANOSECONDS > longest
@@ -63,7 +63,7 @@ class CommandTimeout:
     Args:
         clock: Gives the age of the command.
         command: Its command.
-        longest: How long a command holds [s]; may be infinite.
+        longest: Duration of a command [s]; may be infinite.
     """
 
     def __init__(self, clock: Clock, command: TwistInput, longest: float) -> None:

@@ -28,7 +28,7 @@ class DroneMoment:
 
     Attributes:
         place: Where the drones are.
-        motion: How they move, in the world frame.
+        motion: Twists, in the world frame.
         acceleration: Change of the velocity since the last step [m/s²], shape (nworld, 3).
         moved: Change of the position since then [m], likewise.
         step: Time since then [s].
@@ -96,7 +96,7 @@ class DroneLaw:
         The torque has shape (nworld, 3).
 
         Args:
-            now: What is known.
+            now: Known map.
             orders: The commands.
             gravity: In the world frame [m/s²], shape (nworld, 3).
         """

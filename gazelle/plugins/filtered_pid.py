@@ -61,9 +61,9 @@ class FilteredPids:
         """Return the output of the controllers, shape (nworld, count).
 
         Args:
-            command: What the value shall be, shape (nworld, count).
-            value: What it is, likewise.
-            rate: How it changes a second, likewise or one for all.
+            command: Desired value, shape (nworld, count).
+            value: Actual value, likewise.
+            rate: Derivative, likewise or one for all.
             step: Time since the last update [s].
             acting: Worlds that are updated, shape (nworld,); in others the controllers rest, and
                 what is returned means nothing.

@@ -28,8 +28,8 @@ class _Arm:
         palm: Link that objects are held to.
         fingers: Links that squeeze.
         collisions: Scoped names of the collisions of palm and fingers.
-        counts: How often an object, by link, was seen squeezed in a world; goes down when not.
-        held: What is held in a world, and how far the fingers were from it.
+        counts: Number of times an object, by link, was squeezed in a world; decreases otherwise.
+        held: Object held in a world, and its distance from the fingers.
     """
 
     palm: LinkHandle

@@ -58,7 +58,7 @@ class Gyros:
         nworld: Number of worlds.
 
     Attributes:
-        values: What they measured, shape (nworld, n, 10); used in place. See ``ImuModel.measure``.
+        values: Measurements, shape (nworld, n, 10); used in place. See ``ImuModel.measure``.
     """
 
     def __init__(self, units: Sequence[SensorUnit], nworld: int) -> None:

@@ -40,7 +40,7 @@ class _Rope:
         name: As the file has it.
         joint: Scoped name in the engine.
         carriage: Scoped name of the link on the joint.
-        link: What hangs on it.
+        link: Attached link.
     """
 
     name: str

@@ -53,7 +53,7 @@ class SampledOnBody(OnBody):
     """A sensor on a body; its outputs publish one sample.
 
     Attributes:
-        sample: What they publish now; None outside of an update.
+        sample: Current sample; None outside of an update.
     """
 
     sample: Any = None

@@ -50,9 +50,9 @@ class Kobuki(ModelPlugin):
         wheels: Left and right.
         imu: Its gyro.
         power: In which worlds its motors turn, shape (nworld,).
-        felt: What the gyro measured at the last update, shape (nworld, 10).
+        felt: Measurement of the gyro at the last update, shape (nworld, 10).
         reckoning: Of how far the wheels have rolled.
-        odometry: What is published of that.
+        odometry: Odometry output.
     """
 
     update_rate = 0.0

@@ -27,7 +27,7 @@ class PointLaser(Noisy, SensorPlugin):
     """Knows where the rays of its sensor end.
 
     Attributes:
-        prefix: What goes before the name of the frame.
+        prefix: Prefix of the frame.
     """
 
     prefix = FramePrefix.NEAREST

@@ -97,7 +97,7 @@ class OdometryOutputs:
         framed: Whether there is ``odom_tf``.
 
     Attributes:
-        source: What measures it, if many of that may be measured at once.
+        source: Source that measures several at once, if any.
     """
 
     def __init__(

@@ -30,7 +30,7 @@ class PlanarMove(ModelPlugin):
 
     Attributes:
         command: Its command, and how long that holds.
-        odometry: What is published.
+        odometry: Odometry output.
     """
 
     update_rate = 0.0

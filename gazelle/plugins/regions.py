@@ -22,7 +22,7 @@ class _Region:
         least: One corner [m].
         most: The other.
         topic: Full name.
-        text: What is said.
+        text: Message of the event.
     """
 
     least: Floats

@@ -93,7 +93,7 @@ class TricycleDrive(ModelPlugin):
 
     Attributes:
         limits: Of its speeds and angles.
-        odometry: What is published of where it is.
+        odometry: Odometry output.
         reckoning: Of how far the wheels that count have rolled.
         joints: Those that steer, drive, and count.
         from_encoders: Whether the odometry is what wheels have rolled.

@@ -27,7 +27,7 @@ class WheeledDrive(ModelPlugin):
     Subclasses call ``drive``, ``listen`` and, if they publish, ``publish_odometry`` in ``load``.
 
     Attributes:
-        odometry: What is published, if anything is.
+        odometry: Odometry output, if any.
         motors: Of the wheels.
     """
 

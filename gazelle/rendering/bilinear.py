@@ -35,7 +35,7 @@ class PixelMeans:
         Args:
             places: Column and row, whole numbers in the middle of pixels, shape (rows, columns, 2);
                 beyond the pixels at the edge it is these.
-            inside: What is none of these pixels is black, shape (rows, columns).
+            inside: Mask of pixels that are not black, shape (rows, columns).
             size: Rows and columns of a picture that they are taken from.
             first: The number of its first pixel, if it is one of several.
 

@@ -24,8 +24,8 @@ class PinholeLens:
         width: Columns of pixels.
         height: Rows of pixels.
         horizontal_fov: Horizontal field of view [rad].
-        near: What is nearer along the axis is not drawn [m].
-        far: What is farther along the axis is not drawn [m].
+        near: Near clipping distance along the axis [m].
+        far: Far clipping distance along the axis [m].
         vertical_fov: Vertical field of view [rad]; None for square pixels.
 
     Raises:

@@ -39,7 +39,7 @@ def painted_world(links: Sequence[str], parts: Iterable[PaintedPart]) -> Visible
 
     Args:
         links: Their names.
-        parts: What is on them; labels in pictures count these.
+        parts: Parts of the triangles, by which labels count.
     """
     gathered, numbers = GatheredShapes(), dict[int, int]()
     found, held = [], []

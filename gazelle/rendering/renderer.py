@@ -34,7 +34,7 @@ class Frames:
     Attributes:
         color: Red, green, blue, shape (n, height, width, channels), top row first.
         depth: Along the optical axis [m], infinite where nothing is, shape (n, height, width).
-        labels: Which of ``Renderer.parts`` is seen, -1 where nothing is, likewise.
+        labels: Index into ``Renderer.parts``, -1 for none, likewise.
     """
 
     color: Bytes
@@ -49,8 +49,8 @@ class Renderer:
     A picture is the same, bit for bit, at any number of threads, worlds and other cameras.
 
     Args:
-        world: What there is.
-        nworld: How many copies.
+        world: World to draw.
+        nworld: Number of copies.
         threads: That draw at once; all processors if None.
         gamma: Brightness b becomes b to the power 1 / gamma.
         shadows: Whether things throw shadows in the first directional light that has them.
@@ -59,7 +59,7 @@ class Renderer:
     Attributes:
         shadows: Likewise; it can be set.
         links: Scoped names of the links that have visuals.
-        parts: What labels count.
+        parts: Parts by which labels count.
 
     Raises:
         FormatError: A mesh or a terrain cannot be read.
@@ -148,7 +148,7 @@ class Renderer:
             positions: Of the cameras in their worlds [m], shape (n, 3).
             quaternions: x, y, z, w; a camera looks along its x axis, z is up, shape (n, 4).
             worlds: That the cameras are in, shape (n,); the first n if None.
-            want: Which of color, depth and labels.
+            want: Images: color, depth and labels.
             unseen: Of each camera the link that it does not see, such as its own casing, counted as
                 in ``links``, or -1, shape (n,); none if None. Shadows of it stay.
             channels: Bytes a pixel of colours, 4 with 255 after red, green and blue.

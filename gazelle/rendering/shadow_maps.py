@@ -65,7 +65,7 @@ def extent_of_shapes(shapes: DrawnShapes, placed: Floats) -> tuple[Floats, float
     """Return middle (3,) and radius [m] of a ball around everything except ground.
 
     Args:
-        shapes: What there is.
+        shapes: Shapes to draw.
         placed: Rotation by rows and place of the links [m], shape (nlink, 12).
     """
     parts, spheres = np.asarray(shapes.parts), np.asarray(shapes.spheres)

@@ -22,7 +22,7 @@ class SurfaceLook:
 
     Attributes:
         color: Red, green and blue, 0 to 1.
-        glow: What it shines itself, likewise.
+        glow: Emitted light, likewise.
         texture: The picture on it, in place of the colour; None for none.
         alpha: 1 for what hides all behind it, 0 for what cannot be seen.
     """

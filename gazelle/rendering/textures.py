@@ -22,7 +22,7 @@ class TextureTable:
     """The textures of a world, each read once.
 
     Attributes:
-        count: How many there are.
+        count: Number of textures.
     """
 
     def __init__(self) -> None:

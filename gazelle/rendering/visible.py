@@ -39,8 +39,8 @@ class VisibleWorld:
 
     Attributes:
         links: Names of the links, as poses are given for them.
-        parts: What labels in pictures count.
-        shapes: What is drawn.
+        parts: Parts by which labels in images count.
+        shapes: Shapes to draw.
         rest: Where links are in the description, rotation by rows and place [m], shape (nlink, 12).
     """
 

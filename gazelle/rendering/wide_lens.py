@@ -94,11 +94,11 @@ class WideLens:
     Attributes:
         width: Columns of pixels.
         height: Rows of pixels.
-        mapping: What falls where.
+        mapping: Mapping of the texture.
         cutoff: Light from farther off the axis [rad] is darkened to a fifth.
         face: Pixels along a side of the six pictures, of a right angle each, that it is made of.
-        near: What is nearer along the axis of one of these is not drawn [m].
-        far: What is farther is not drawn [m].
+        near: Near clipping distance along the axis of one of these [m].
+        far: Far clipping distance [m].
 
     Raises:
         EngineError: There can be no such picture.

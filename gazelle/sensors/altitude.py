@@ -73,7 +73,7 @@ class AltimeterModel(NoisySensor):
     """Measures height and its change in every world, as Gazebo's altimeter does.
 
     Args:
-        settings: What the file says.
+        settings: Settings of the file.
         engine: Knows the motion.
         link: Scoped name of the link it is on.
         pose: The sensor frame in the link frame.
@@ -93,7 +93,7 @@ class AltimeterModel(NoisySensor):
         """Return height, velocity upwards and reference now, shape (n, 3).
 
         Args:
-            worlds: Which worlds; all if None.
+            worlds: Worlds; all if None.
             interval: Time since the last measurement [s].
         """
         position, velocity = self._point.position_and_velocity(worlds)
@@ -157,7 +157,7 @@ class AirPressureModel(NoisySensor):
     """Measures the pressure of the world's atmosphere in every world.
 
     Args:
-        settings: What the file says.
+        settings: Settings of the file.
         engine: Knows the atmosphere and the height.
         link: Scoped name of the link it is on.
         pose: The sensor frame in the link frame.
@@ -177,7 +177,7 @@ class AirPressureModel(NoisySensor):
         """Return the pressure now [Pa], shape (n, 1).
 
         Args:
-            worlds: Which worlds; all if None.
+            worlds: Worlds; all if None.
             interval: Time since the last measurement [s].
         """
         altitude = self.settings.reference_altitude + self._point.position(worlds)[:, 2:]

@@ -29,7 +29,7 @@ class CameraImage:
 
     Attributes:
         stamp: Simulated time [ns].
-        camera: What the file says about it.
+        camera: Settings of the file.
         color: Red, green, blue, shape (..., height, width, 3), top row first.
         depth: Along the optical axis [m], infinite where nothing is, shape (..., height, width);
             None for a camera that measures none.
@@ -49,7 +49,7 @@ class CameraModel:
     size is that of the pictures.
 
     Args:
-        cameras: What the file says; more than one of a multicamera.
+        cameras: Settings of the file; several for a multicamera.
         depth: Whether depths are measured too.
         wide: Whether they are wide-angle cameras.
         legacy: Whether the coefficients of a distortion are meant as Gazebo's own.
@@ -94,7 +94,7 @@ class CameraModel:
         """Render the present view, shape (n, bytes).
 
         Args:
-            worlds: Which worlds; all if None.
+            worlds: Worlds; all if None.
             interval: Plays no part.
         """
         del interval
@@ -112,7 +112,7 @@ class CameraModel:
         """Return the first camera's present view without its noise, shape (n, rows, columns, 3).
 
         Args:
-            worlds: Which worlds.
+            worlds: Worlds.
             width: Columns at most [pixel].
         """
         camera = self.cameras[0]

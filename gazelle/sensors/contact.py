@@ -64,7 +64,7 @@ class ContactModel(NoisySensor):
         """Return contacts now, shape (n, most * 15); see ``reading``.
 
         Args:
-            worlds: Which worlds; all if None.
+            worlds: Worlds; all if None.
             interval: Not used.
         """
         check_worlds(worlds, self.engine.nworld)

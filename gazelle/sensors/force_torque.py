@@ -83,7 +83,7 @@ class ForceTorqueModel(NoisySensor):
     sensor turns the axes and does not move the point.
 
     Args:
-        settings: What the file says.
+        settings: Settings of the file.
         engine: Knows the forces.
         joint: Scoped name of the joint, a fixed one too.
         links: Scoped names of its parent and child; the parent may be ``world``.
@@ -114,7 +114,7 @@ class ForceTorqueModel(NoisySensor):
         """Return force and torque in the coming physics step, shape (n, 6).
 
         Args:
-            worlds: Which worlds; all if None.
+            worlds: Worlds; all if None.
             interval: Time since the last measurement [s].
         """
         wrench = self._engine.joints[self._joint].wrench(worlds)

@@ -76,7 +76,7 @@ class GpsModel(NoisySensor):
     world's ``spherical_coordinates`` say where its origin is; without them it is 0 N 0 E.
 
     Args:
-        settings: What the file says.
+        settings: Settings of the file.
         engine: Knows the motion.
         link: Scoped name of the link it is on.
         pose: The sensor frame in the link frame.
@@ -105,7 +105,7 @@ class GpsModel(NoisySensor):
         """Return latitude, longitude [deg], altitude [m], velocity [m/s] now, shape (n, 6).
 
         Args:
-            worlds: Which worlds; all if None.
+            worlds: Worlds; all if None.
             interval: Time since the last measurement [s].
         """
         position, velocity = self._point.position_and_velocity(worlds)

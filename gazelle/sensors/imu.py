@@ -25,7 +25,7 @@ class ImuReading:
         stamp: Simulated time [ns].
         orientation: Of the sensor in the world, quaternion (x, y, z, w), shape (..., 4).
         angular_velocity: [rad/s], shape (..., 3).
-        linear_acceleration: What an accelerometer feels, +g upwards at rest [m/s²],
+        linear_acceleration: Specific force, +g upwards at rest [m/s²],
             shape (..., 3).
         variance: Of every value, for the published covariance.
     """
@@ -42,7 +42,7 @@ class ImuModel(NoisySensor):
     """Measures one IMU in every world.
 
     Args:
-        imu: What the file says.
+        imu: Settings of the file.
         engine: Knows the motion.
         link: Scoped name of the link it is on.
         pose: The sensor frame in the link frame.
@@ -74,7 +74,7 @@ class ImuModel(NoisySensor):
         The acceleration is that of the coming physics step.
 
         Args:
-            worlds: Which worlds; all if None.
+            worlds: Worlds; all if None.
             interval: Time since the last measurement [s].
         """
         orientation, felt = _felt(

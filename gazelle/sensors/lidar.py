@@ -56,7 +56,7 @@ class LidarModel:
     description is ``quantized``.
 
     Args:
-        lidar: What the file says.
+        lidar: Settings of the file.
         engine: Casts the rays.
         link: Scoped name of the link it is on.
         pose: The sensor frame in the link frame.
@@ -97,7 +97,7 @@ class LidarModel:
         """Return ranges now [m], shape (n, samples), with the meaning of ``LaserScan.ranges``.
 
         Args:
-            worlds: Which worlds; all if None.
+            worlds: Worlds; all if None.
             interval: Time since the last measurement [s].
         """
         check_worlds(worlds, self.engine.nworld)

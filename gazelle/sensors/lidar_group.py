@@ -21,7 +21,7 @@ class LidarGroup:
     Args:
         engine: Casts their rays.
         rays: Rays of each lidar.
-        law: How they report ranges.
+        law: Law of the reported ranges.
         begin: Distance of the rays' origins from where ranges are measured [m].
         noise: A row for each world and lidar, those of a world together; used in place.
 

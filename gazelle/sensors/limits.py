@@ -17,7 +17,7 @@ def check_sensor(sensor: Sensor, name: str, nworld: int) -> None:
     """Check that a sensor's measurements fit into memory.
 
     Args:
-        sensor: What it is.
+        sensor: The sensor.
         name: Its scoped name.
         nworld: Number of worlds that it measures in.
 

@@ -48,7 +48,7 @@ class MagnetometerModel(NoisySensor):
     """Measures the magnetic field in every world; it is the same everywhere in a world.
 
     Args:
-        settings: What the file says.
+        settings: Settings of the file.
         engine: Knows the field and the orientation.
         link: Scoped name of the link it is on.
         pose: The sensor frame in the link frame.
@@ -68,7 +68,7 @@ class MagnetometerModel(NoisySensor):
         """Return the field now [T], shape (n, 3).
 
         Args:
-            worlds: Which worlds; all if None.
+            worlds: Worlds; all if None.
             interval: Time since the last measurement [s].
         """
         orientation = self._engine.links[self._link].placement(worlds).quaternion

@@ -25,7 +25,7 @@ class SensorModel(Protocol):
         """Measure now, shape (n, channels).
 
         Args:
-            worlds: Which worlds; all if None.
+            worlds: Worlds; all if None.
             interval: Time since the last measurement [s].
         """
 

@@ -27,7 +27,7 @@ class NoiseModel:
     is a first-order Gauss-Markov process, and quantising comes last.
 
     Args:
-        noise: What the file says.
+        noise: Settings of the file.
         seed: The run's seed.
         name: Names the random stream; unique for each channel group.
         nworld: Number of worlds.
@@ -166,7 +166,7 @@ class NoiseModel:
         Args:
             values: True values, shape (n, channels).
             interval: Time since the last measurement [s], for the drift.
-            worlds: Which worlds the rows are.
+            worlds: Worlds of the rows.
 
         Returns:
             Measured values, shape (n, channels).
@@ -215,7 +215,7 @@ class NoiseRows:
     """State of noise of each world, or of each world and sensor of a kind.
 
     Attributes:
-        noise: What the file says.
+        noise: Settings of the file.
         stream: Of the rows.
         stddev: Shape (rows, 1).
         bias: Shape (rows, channels).
@@ -236,7 +236,7 @@ class NoiseRows:
         Args:
             values: True values, shape (n, channels).
             interval: Time since the last measurement [s].
-            chosen: Which rows they are; all if None.
+            chosen: Rows; all if None.
             spread: Whether there is white noise.
         """
         noise, channels = self.noise, values.shape[1]

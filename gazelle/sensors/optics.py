@@ -42,7 +42,7 @@ class PinholeOptics:
     """A pinhole, with a lens before it that may bend the picture.
 
     Args:
-        camera: What the file says.
+        camera: Settings of the file.
         legacy: Whether the coefficients of a distortion are meant as Gazebo's own.
 
     Raises:
@@ -74,7 +74,7 @@ class WideOptics:
     """A lens that sees up to the whole sphere.
 
     Args:
-        camera: What the file says.
+        camera: Settings of the file.
 
     Raises:
         EngineError: There can be no such picture, or a distortion comes on top.
@@ -113,7 +113,7 @@ def optics_of(camera: Camera, *, wide: bool, legacy: bool) -> Optics:
     """Return the optics of a camera.
 
     Args:
-        camera: What the file says.
+        camera: Settings of the file.
         wide: Whether its sensor is of the wide-angle type; plain cameras ignore ``<lens>``.
         legacy: See ``PinholeOptics``.
     """

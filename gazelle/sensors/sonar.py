@@ -106,7 +106,7 @@ class SonarModel(NoisySensor):
     the space between two rays can be missed; the bundle is closest near the middle.
 
     Args:
-        settings: What the file says.
+        settings: Settings of the file.
         engine: Casts the rays.
         link: Scoped name of the link it is on.
         pose: The sensor frame in the link frame.
@@ -129,7 +129,7 @@ class SonarModel(NoisySensor):
         """Return the distance to the nearest thing now [m], shape (n, 1).
 
         Args:
-            worlds: Which worlds; all if None.
+            worlds: Worlds; all if None.
             interval: Time since the last measurement [s].
         """
         hits = self._engine.links[self._link].cast_rays(

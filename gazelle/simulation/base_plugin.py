@@ -18,7 +18,7 @@ class BasePlugin:
     Attributes:
         update_rate: Calls of ``on_update`` a simulated second [Hz]; 0 means every physics
             step, None means never. Set it in the class or in ``load``.
-        system: What updates all plugins that name it and are due together, in place of their
+        system: Class that updates all plugins that name it and are due together, in place of their
             ``on_update``; None for none. Set it in the class or in ``load``.
         published: Outputs that the system publishes.
         handle: Name that the file gives it; known in ``load``.
@@ -48,7 +48,7 @@ class BasePlugin:
 
         Args:
             seed: Any int.
-            worlds: Which worlds; all if None.
+            worlds: Worlds; all if None.
         """
 
     def reset(self, worlds: Worlds | None) -> None:

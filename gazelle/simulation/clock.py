@@ -57,7 +57,7 @@ class Stopwatch:
     longer a simulation runs; that of two counts is not.
 
     Args:
-        clock: What it counts by; it is started at once.
+        clock: Clock of the schedule; it is started at once.
 
     Attributes:
         start_ns: When it was started [ns].

@@ -55,7 +55,7 @@ class ControlLoop(ModelPlugin):
 
         Args:
             robot: In the simulation.
-            hardware: What controllers see of it.
+            hardware: Hardware interface of the controllers.
             model: As its URDF describes it.
             namespace: Of its topics.
         """

@@ -41,7 +41,7 @@ def spawn_numbered(simulation: Simulation, model: Model, pose: Pose | None = Non
 
     Args:
         simulation: Any engine.
-        model: What to spawn.
+        model: Model to spawn.
         pose: See `Simulation.spawn`.
 
     Raises:
@@ -63,7 +63,7 @@ def spawn_where_free(
 
     Args:
         simulation: Any engine; one without contacts takes the wanted pose.
-        model: What to spawn.
+        model: Model to spawn.
         pose: See `Simulation.spawn`.
 
     Raises:

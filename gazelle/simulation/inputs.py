@@ -97,9 +97,9 @@ def numbers(what: str, values: ArrayLike, width: int, count: int, *, alike: bool
 
     Args:
         what: For the message.
-        values: What was given.
+        values: Values.
         width: Numbers for one world.
-        count: How many worlds they are for.
+        count: Number of worlds.
         alike: Whether one number may stand for all of a world.
 
     Raises:

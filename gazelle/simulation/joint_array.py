@@ -52,7 +52,7 @@ class JointArray:
         Args:
             position: [m or rad], shape (nworld, joints) or one that broadcasts to it.
             velocity: [m/s or rad/s], likewise.
-            chosen: Which joints, shape (joints,).
+            chosen: Mask of joints, shape (joints,).
         """
         where, speed = (np.broadcast_to(each, self._shape) for each in (position, velocity))
         self._rows.place(where, speed, np.broadcast_to(chosen, self._shape))
@@ -63,7 +63,7 @@ class JointArray:
 
         Args:
             velocity: [m/s or rad/s], shape (nworld, joints) or one that broadcasts to it.
-            chosen: Which joints, shape (joints,); all if None.
+            chosen: Mask of joints, shape (joints,); all if None.
 
         Raises:
             SimulationError: The velocities are of another shape, or one is no number.

@@ -90,8 +90,8 @@ class JointHandle:
         Args:
             effort: [N or N m], shape (), (n,) or (n, axes).
             start: When it begins, in simulated time [s]; now if None or past.
-            duration: How long it acts [s]; until it is cleared if None.
-            worlds: Which worlds; all if None.
+            duration: Duration [s]; until cleared if None.
+            worlds: Worlds; all if None.
 
         Raises:
             SimulationError: A value is not finite, or the duration is negative.
@@ -214,7 +214,7 @@ class JointHandle:
             lower: Lower limit [m or rad]; minus infinity for none.
             upper: Upper limit [m or rad]; infinity for none.
             motor_effort: Largest effort of its motor [N or N m].
-            worlds: Which worlds; all if None.
+            worlds: Worlds; all if None.
 
         Raises:
             EngineError: A value cannot be, or there is no motor; nothing is changed.

@@ -68,7 +68,7 @@ class LinkHandle:
             position: [m], shape (3,) or (n, 3).
             quaternion: (x, y, z, w), shape (4,) or (n, 4); upright if None.
             yaw: Heading [rad] instead of a quaternion, shape () or (n,).
-            worlds: Which worlds; all if None.
+            worlds: Worlds; all if None.
 
         Raises:
             EngineError: The link is fixed to the world.
@@ -131,8 +131,8 @@ class LinkHandle:
             follow: Whether the wrench turns with ``frame``; if not, it keeps the direction and
                 the lever that it has when it begins, as Gazebo's do.
             start: When it begins, in simulated time [s]; now if None or past.
-            duration: How long it acts [s]; until it is cleared if None.
-            worlds: Which worlds; all if None.
+            duration: Duration [s]; until cleared if None.
+            worlds: Worlds; all if None.
 
         Raises:
             EngineError: Nothing can push the link: it does not move.
@@ -177,7 +177,7 @@ class LinkHandle:
             inertia: About the centre of mass in the link's axes [kg m²]; xx, yy, zz, xy, xz,
                 yz, shape (6,) or (n, 6).
             gravity: Whether gravity acts on it, shape () or (n,).
-            worlds: Which worlds; all if None.
+            worlds: Worlds; all if None.
 
         Raises:
             EngineError: The link does not move, or a value cannot be.

@@ -14,7 +14,7 @@ class Named(Mapping[str, T]):
     """A mapping with helpful errors for missing keys.
 
     Args:
-        kind: What the items are.
+        kind: Kind of the items.
         items: By name.
         scope: May stand before the names, with ``::`` between them, as in Gazebo.
     """

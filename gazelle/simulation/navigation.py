@@ -16,7 +16,7 @@ class NavigationTask(Protocol):
     Attributes:
         done: Whether it is reached or given up, in all of its worlds.
         succeeded: Whether it is reached in all of its worlds.
-        text: What is said of it in its first world that is done.
+        text: Message of the first world that is done.
     """
 
     done: bool

@@ -21,7 +21,7 @@ def run_paced(advance: Callable[[int], None], count: int, step: float, rate: flo
 
     Args:
         advance: Makes steps.
-        count: How many in all.
+        count: Total number.
         step: Of simulated time [s].
         rate: Real-time factor to keep to; None means as fast as possible.
 

@@ -46,7 +46,7 @@ class Parameter:
         Args:
             name: Scoped name.
             values: One for all, or one a world: shape (), (n,), (width,) or (n, width).
-            worlds: Which worlds; all if None.
+            worlds: Worlds; all if None.
 
         Raises:
             EngineError: There is nothing of that name, or a value cannot be.
@@ -260,7 +260,7 @@ class WorldParameters:
             name: Scoped name; empty for gravity.
             low: Lower bound, shape () or (width,).
             high: Upper bound, shape () or (width,).
-            worlds: Which worlds; all if None.
+            worlds: Worlds; all if None.
 
         Returns:
             What was drawn, shape (n, width).

@@ -18,10 +18,10 @@ def warn_of_fault(
     """Warn of a plugin that failed, with the line where it did.
 
     Args:
-        plugin: What failed.
+        plugin: Plugin that failed.
         name: Such as "plugin 'drive' of 'r1'".
         when: When it failed, and what becomes of it.
-        error: What it raised.
+        error: Its exception.
         source: Where a file names it.
     """
     line = _line(plugin, error)

@@ -22,10 +22,10 @@ class KnownPlugin:
 
     Attributes:
         files: Their names, without ``lib`` and ``.so``.
-        what: What they are for, in a few words.
+        what: Purpose, in a few words.
         code: The class that does it, as ``package.module:Class``.
-        missing: What a world is without, as it is not simulated; a warning says so.
-        done_by: What does it here without a plugin, or why there is nothing to do; nothing is said.
+        missing: Missing behaviour, for the warning.
+        done_by: Reason why it is not needed; without a warning.
     """
 
     files: tuple[str, ...]

@@ -94,7 +94,7 @@ class TwistInput(StatePart):
             linear: Forward velocity [m/s], shape () or (n,), or vectors, shape (n, 3); of one
                 world a vector may be (3,).
             angular: Turning rate about z [rad/s], likewise.
-            worlds: Which worlds; all if None.
+            worlds: Worlds; all if None.
 
         Raises:
             SimulationError: A value is no number, not finite, or of another shape.
@@ -173,7 +173,7 @@ class Input(StatePart, Generic[T]):
 
         Args:
             value: Of the port's kind.
-            worlds: Which worlds; all if None.
+            worlds: Worlds; all if None.
         """
         self._receive(value, self._some(worlds))
 
@@ -212,7 +212,7 @@ class Service(StatePart, Generic[Q, R]):
 
         Args:
             request: Of the service's request type, or None.
-            worlds: Which worlds; all if None.
+            worlds: Worlds; all if None.
         """
         return self._answer(request, self._some(worlds))
 
@@ -237,7 +237,7 @@ class Output(StatePart, Generic[T]):
         queue_size: Of the topic.
         latch: Whether late subscribers get the last value.
         namespace: Namespace of the frames; that of the topic if None.
-        prefix: What goes before the names of its frames on a graph.
+        prefix: Prefix of the names of its frames on a graph.
         event: Whether it publishes events, and nothing at other times.
     """
 

@@ -77,7 +77,7 @@ class Recorder(Closeable):
     here, one step at a time, so that what they write is found.
 
     Args:
-        simulation: What runs.
+        simulation: Simulation.
         path: Where to write; an existing file is replaced.
 
     Raises:

@@ -32,7 +32,7 @@ class Replay(Closeable):
         threads: Native threads; all processors if None.
 
     Attributes:
-        simulation: What runs.
+        simulation: Simulation.
 
     Raises:
         SimulationError: The file is no recording, a damaged one, or one of another version.

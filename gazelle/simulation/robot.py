@@ -44,7 +44,7 @@ class RobotHost(RunningState, Protocol):
         parameters: Masses, friction and the like of each world.
         ports: Of the plugins of the world.
         events: Emitted on spawn, delete and reset.
-        live_scene: What cameras see.
+        live_scene: Scene of the cameras.
     """
 
     paused: bool
@@ -128,7 +128,7 @@ class Robot(Ports):
     Attributes:
         name: Its name in the world.
         namespace: Put before its topics.
-        description: What it was made from.
+        description: Its description.
         links: By name within the robot (``arm::hand`` for a nested model's), its own before it or not.
         joints: Those that move, by name within the robot.
         sensors: By name.
@@ -264,7 +264,7 @@ class Robot(Ports):
             position: [m], shape (3,) or (n, 3).
             quaternion: (x, y, z, w), shape (4,) or (n, 4); upright if None.
             yaw: Heading [rad] instead of a quaternion, shape () or (n,).
-            worlds: Which worlds; all if None.
+            worlds: Worlds; all if None.
 
         Raises:
             SimulationError: A value cannot be, or both a quaternion and a heading are given.
@@ -305,7 +305,7 @@ class Robot(Ports):
         Args:
             joints: Names within the robot, each of one axis.
             positions: [m or rad], in that order, shape (joints,) or (n, joints).
-            worlds: Which worlds; all if None.
+            worlds: Worlds; all if None.
 
         Raises:
             SimulationError: There is no such joint, one has several axes, or there are more or
@@ -333,7 +333,7 @@ class Robot(Ports):
 
         Args:
             joint: Name within the robot; fixed joints have a wrench too.
-            worlds: Which worlds; all if None.
+            worlds: Worlds; all if None.
 
         Raises:
             SimulationError: There is no such joint.

@@ -61,7 +61,7 @@ class SensorGroup:
         units: The sensors.
         schedule: Of all of them.
         count: Measurements so far.
-        kernel: What the engine updates in its steps; None where Python measures.
+        kernel: System that the engine updates in its steps; None where Python measures.
     """
 
     awake = True

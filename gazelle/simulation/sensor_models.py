@@ -43,7 +43,7 @@ class SensorMount:
     Attributes:
         engine: Of the simulation.
         scene: Draws what cameras see.
-        sensor: What the file says.
+        sensor: Settings of the file.
         scope: Scoped name of the model that it is in.
         link: The link, or the child of the joint, that it moves with.
         joint: The joint that it is on, if it is on one.

@@ -29,7 +29,7 @@ class SampledSensor:
     It sleeps until it is read or subscribed to; then it measures at its ``update_rate``.
 
     Attributes:
-        description: What the file says.
+        description: Settings of the file.
     """
 
     def __init__(
@@ -256,7 +256,7 @@ class SensorOutput(Output[Any]):
         frame: Frame of the readings.
         read: The reading from the sensor; its own kind of reading if None.
         namespace: Namespace of the frames; that of the topic if None.
-        prefix: What goes before the name of the frame on a graph.
+        prefix: Prefix of the frame on a graph.
     """
 
     def __init__(

@@ -29,7 +29,7 @@ class Setting(StatePart, Generic[T]):
         awaited: Whether to continue looking for a value until there is one.
 
     Attributes:
-        value: What holds now.
+        value: Current value.
     """
 
     def __init__(
@@ -96,7 +96,7 @@ class Tuning(StatePart):
 
     Args:
         topic: Namespace that they are offered in.
-        tunables: What can be changed.
+        tunables: Parameters that can be changed.
         change: Called with the values that are to hold, all of them.
         values: Returns the current ones, in the same order.
     """

@@ -58,7 +58,7 @@ class SimulatedHardware(RobotHardware):
 
     Args:
         robot: In the simulation.
-        setup: What was found in its files.
+        setup: Setup of its files.
     """
 
     def __init__(self, robot: Robot, setup: HardwareSetup) -> None:

@@ -61,7 +61,7 @@ class Simulation(Closeable):
         seed: Decides all random numbers; world i's do not depend on ``nworld``.
         threads: Native threads; all processors if None. Results do not depend on it.
         time_step: Physics step [s]; the world's ``max_step_size`` if None.
-        on_fault: What to do when the state of a world becomes infinite: ``raise`` an error, or
+        on_fault: Action when the state of a world becomes infinite: ``raise`` an error, or
             ``reset`` the world with a warning and continue. The other worlds make their steps
             either way, and the steps that broke it are written down for ``Replay``.
         fault_dump: File for that; a temporary one if None.
@@ -176,7 +176,7 @@ class Simulation(Closeable):
         """Advance by simulated time, or until a pause.
 
         Args:
-            seconds: How long [s]; rounded to whole physics steps.
+            seconds: Duration [s]; rounded to whole physics steps.
             rate: Real-time factor to keep to; None means as fast as possible.
 
         Raises:
@@ -287,9 +287,9 @@ class Simulation(Closeable):
         """Attach two links at their present relative pose, until ``detach`` or a reset.
 
         Args:
-            parent: What is held to. Where it is a model that is only placed, it leads the other.
-            child: What is held.
-            worlds: Which worlds; all if None.
+            parent: Link to attach to. If its model is only placed, it leads the other.
+            child: Link to hold.
+            worlds: Worlds; all if None.
             settling: Time constant with which they come together again [s], critically damped, as
                 a soft weld of MuJoCo's; None for as stiff as can be.
 
@@ -332,7 +332,7 @@ class Simulation(Closeable):
 
         Args:
             view: From where and how; ``gazelle.sensors.look_at`` helps.
-            world: Which world.
+            world: World.
         """
         one = inputs.one_world(world, self.nworld)
         with self.lock:
@@ -360,7 +360,7 @@ class Simulation(Closeable):
         It compares to the bit: the same run gives the same after every step.
 
         Args:
-            worlds: Which worlds; all if None. That of one world does not depend on the others.
+            worlds: Worlds; all if None. That of one world does not depend on the others.
         """
         rows = slice(None) if worlds is None else indices_of(worlds, self.nworld)
         with self.lock:

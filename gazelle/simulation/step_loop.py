@@ -101,7 +101,7 @@ class StepLoop:
         """Advance by steps, and run queued requests between two of them.
 
         Args:
-            count: How many.
+            count: Number of steps.
             stop: Called between two steps; True ends the run.
 
         Raises:
@@ -294,8 +294,8 @@ class StepLoop:
         That is when Python comes next, within a second, so that it does not depend on where steps are cut.
 
         Args:
-            error: What happened in the first of the steps.
-            wanted: How many steps there are in all.
+            error: Error of the first of the steps.
+            wanted: Total number of steps.
 
         Returns:
             How many steps were made.

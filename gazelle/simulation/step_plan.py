@@ -26,9 +26,9 @@ class StepPlan:
         followed: Whether Python measures sensors all the same.
 
     Attributes:
-        plugins: What is updated in turn, groups in the place of their first plugin; those that
+        plugins: Plugins to update in order, groups in the place of their first plugin; inactive
             rest are left out.
-        sensors: What is measured from Python: those awake, groups in the place of their first.
+        sensors: Active sensors measured from Python, groups in the place of their first.
         groups: Of sensors that systems measure.
         settled: The systems and schedules of all plugins where Python has a say in none; else None.
         late: Plugins that may run within steps: they come after the others in any case.

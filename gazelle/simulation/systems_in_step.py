@@ -24,7 +24,7 @@ class SystemsInStep:
     changed, however many there are.
 
     Attributes:
-        kernels: What engines update in steps.
+        kernels: Systems that engines update in steps.
         soonest_ns: When Python has to update the first of these systems [ns].
     """
 

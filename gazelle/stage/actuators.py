@@ -27,7 +27,7 @@ class Actuator:
     Args:
         simulation: Runs.
         robot: Its robot.
-        rider: What it moves.
+        rider: Model that it moves.
 
     Attributes:
         position: [m or rad], shape (nworld,); to be read.

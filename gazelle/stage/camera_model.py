@@ -19,8 +19,8 @@ class StageCameraModel:
     A measurement is bytes, as those of ``CameraModel``: colours, then depths.
 
     Args:
-        camera: What the file says.
-        pictures: What it sees now in some worlds, all if None, shape (n, 1, height, width, ...).
+        camera: Settings of the file.
+        pictures: Images of some worlds, all if None, shape (n, 1, height, width, ...).
     """
 
     depth = True

@@ -43,11 +43,11 @@ class MountedCamera:
     Attributes:
         name: Its own name in the file.
         path: Its name on the robot, with those of what it is mounted on.
-        device: What the file says.
+        device: Settings of the file.
         pose: In the body's frame, its height included; its heading without the pan.
         direct: Whether it is mounted on the robot itself.
         body: Index of the body that it is on: the robot, or what an actuator moves.
-        owner: Which of the models on that it is, depth first.
+        owner: Index of its model, depth first.
     """
 
     name: str

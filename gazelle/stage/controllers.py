@@ -39,7 +39,7 @@ def register_controller(name: str, make: Maker) -> None:
     """Register a Python controller for robots that name it, in simulations made later.
 
     Args:
-        name: What ``ctrl "NAME ..."`` says; one of that name is replaced.
+        name: Name in ``ctrl "NAME ..."``; one of that name is replaced.
         make: Called once a simulation, with it and all those robots; the controllers it returns
             are asked before every step.
 

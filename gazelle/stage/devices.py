@@ -66,7 +66,7 @@ class Devices:
         """Copy the state of other robots' devices.
 
         Args:
-            other: What there was.
+            other: Devices before the change.
             pairs: Indices of the robots that both have, there and here.
             things: Where each thing is now that was somewhere.
         """

@@ -26,7 +26,7 @@ class DriveState:
 
     Attributes:
         odometry: Where they believe they are.
-        steering: What their drives come to.
+        steering: Steering of the cars.
         first: Systems to be updated at the beginning of a step.
         last: At the end.
     """

@@ -320,7 +320,7 @@ class StageFleet(Senses):
         Args:
             name: Of the robot.
             pose: x, y [m] and heading [rad], shape (3,) or (n, 3).
-            worlds: Which worlds; all if None.
+            worlds: Worlds; all if None.
 
         Raises:
             SimulationError: There is no such robot, or a value is not finite.

@@ -33,7 +33,7 @@ class WheelOdometry:
         used: Whether each robot's localization is ``odom``, shape (nrobot,).
         pose: Where they believe they are, shape (nworld, nrobot, 3); without robots if none
             uses it.
-        stream: What shares are drawn from.
+        stream: Random stream.
     """
 
     def __init__(

@@ -75,7 +75,7 @@ def distances(x: float, y: float, angles: Floats, there: Outlines) -> Floats:
         x: Of the point [m].
         y: Of the point [m].
         angles: Of the rays [rad], shape (rays,).
-        there: What there is.
+        there: Known models.
     """
     dx, dy = np.cos(angles)[:, None], np.sin(angles)[:, None]
     x0, y0, x1, y1 = (there.lines - (x, y, x, y)).T

@@ -18,8 +18,8 @@ class RangerModel:
     Noise is that of the scanner, which measures for all of its sensors once a step.
 
     Args:
-        sensor: What the file says of it.
-        ranges: What it measures now, its reach where nothing is met, shape (nworld, samples).
+        sensor: Settings of the file.
+        ranges: Current ranges, the maximum for a miss, shape (nworld, samples).
     """
 
     def __init__(self, sensor: StageSensor, ranges: Callable[[], Floats]) -> None:

@@ -17,7 +17,7 @@ class Rangers:
     """The scanners of a world: groups of sensors with the same beams, made when first used.
 
     Args:
-        fleet: What they see.
+        fleet: Fleet.
         fans: Beams of each scanner.
         mounts: Where its sensors are.
         noises: Of its sensors: standard deviation [m], largest share of the distance, and

@@ -22,8 +22,8 @@ class Ranger:
 
     Attributes:
         name: Its whole name.
-        model: What the file says.
-        sensors: What each of its sensors says.
+        model: Settings of the file.
+        sensors: Settings of each of its sensors.
         places: Of each sensor the index of its scanner, and its row in that.
         pose: In the robot's frame, its height included.
         direct: Whether it is mounted on the robot itself.
@@ -49,7 +49,7 @@ class Rider:
     Attributes:
         body: Its index among all bodies of a world.
         model: The actuator, at position zero at the origin of its frame.
-        device: What the file says of it.
+        device: Settings of the file.
         base: Of position zero, on the robot.
     """
 
@@ -66,7 +66,7 @@ class StageRobot:
     Attributes:
         index: Its row in all arrays.
         name: Its name in the world.
-        model: What the file says.
+        model: Settings of the file.
         rangers: Those mounted on it directly or indirectly, in file order; those on
             actuators last.
         riders: Bodies of its actuators.

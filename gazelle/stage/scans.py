@@ -32,7 +32,7 @@ class RangerScanner:
     """All rangers with one fan, in all worlds.
 
     Args:
-        fleet: What they see.
+        fleet: Fleet.
         fan: The beams.
         mounts: Where they are.
         noise: Of each.
@@ -90,7 +90,7 @@ class RangerScanner:
 
         Args:
             sensor: Its place in the scanner.
-            world: Which world.
+            world: World.
         """
         if not self._named:
             tick = self._scanner.tick

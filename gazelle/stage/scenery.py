@@ -44,7 +44,7 @@ class StageScenery:
     """All that can be seen, on links: the first stands still, the others are on bodies.
 
     Attributes:
-        seen: What is drawn.
+        seen: Drawn models.
         bodies: Of each link but the first its parent body, shape (nlink - 1,).
         casings: Links of models with cameras, by body and by their number on it, depth first:
             a camera does not see its own.

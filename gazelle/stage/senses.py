@@ -107,7 +107,7 @@ class Senses(StageBodies):
         Args:
             name: Of the robot.
             camera: Number of the camera on it, depth first in file order.
-            world: Which world.
+            world: World.
 
         Returns:
             ``color``, shape (height, width, 4), and ``depth`` [m], shape (height, width).
@@ -142,7 +142,7 @@ class Senses(StageBodies):
         Args:
             names: Of the robots; all that have such a camera if None.
             camera: As for ``picture``.
-            worlds: Which worlds; all if None.
+            worlds: Worlds; all if None.
 
         Returns:
             ``color``, shape (worlds, robots, height, width, 4), and ``depth`` [m].

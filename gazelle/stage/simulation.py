@@ -49,7 +49,7 @@ class StageSimulation(Closeable):
             run.
 
     Attributes:
-        simulation: What runs.
+        simulation: Simulation.
         stage_fleet: All robots, as arrays.
 
     Raises:

@@ -47,15 +47,15 @@ class Actor:
         weights: One matrix a layer, shape (inputs, outputs), float32.
         biases: One vector a layer, shape (outputs,), float32.
         activation: ``tanh`` or ``relu`` after every layer but the last.
-        head: What the last layer's outputs mean.
+        head: Meaning of the last layer's outputs.
         log_std: Logarithm of the standard deviations (``gaussian``), shape (actions,).
         low: Lower bounds of the actions (continuous heads), shape (actions,).
         high: Upper bounds of the actions (continuous heads), shape (actions,).
         first_action: The number of the first discrete action.
         limits: Where observations are cut first, least and greatest, shape (2, inputs), if they are.
-        features: What is added to observations before the first layer, if anything.
-        pictures: What makes pictures numbers for the first layer, of a policy that sees.
-        memory: What is before the first layer in a policy that remembers.
+        features: Entries added to observations before the first layer, if any.
+        pictures: Layers for images, of a policy with images.
+        memory: Memory layers before the first layer, if any.
     """
 
     weights: tuple[Floats32, ...]
@@ -103,7 +103,7 @@ class Actor:
 
         Args:
             obs: Observations, shape (N, inputs), float32.
-            memory: What a policy with a memory remembers, which changes; see `begin`.
+            memory: State of a policy with a memory, which changes; see `begin`.
 
         Returns:
             Shape (N, outputs), float32.
@@ -165,7 +165,7 @@ class Actor:
         """Sample raw actions from the distribution (``categorical`` and ``gaussian`` heads).
 
         Args:
-            outputs: What `outputs` returned, shape (N, outputs).
+            outputs: Result of `outputs`, shape (N, outputs).
             rng: Where the chance comes from.
 
         Returns:
@@ -186,8 +186,8 @@ class Actor:
         """Return logarithms of the probability (density) of raw actions.
 
         Args:
-            outputs: What `outputs` returned, shape (N, outputs).
-            actions: What `sample` returned.
+            outputs: Result of `outputs`, shape (N, outputs).
+            actions: Result of `sample`.
 
         Returns:
             Shape (N,), float32.

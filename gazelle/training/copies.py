@@ -26,13 +26,13 @@ class TaskCopies:
     Args:
         env: The environment.
         reward_scale: Rewards are multiplied by this for the learner.
-        goal_reward: What the learner is given in place of the task's rewards, if anything.
+        goal_reward: Rewards of the learner in place of the task's; None for the task's.
         on_episodes: Called with the episodes that ended, at each step where some did.
 
     Attributes:
         env: The environment.
         reward_scale: Rewards are multiplied by this for the learner.
-        starts: Which copies begin an episode with `obs`, shape (N,).
+        starts: Mask of copies that begin an episode with `obs`, shape (N,).
         on_observations: Called with what is observed after each step, shape (N, ...), if set.
     """
 

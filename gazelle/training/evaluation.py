@@ -132,15 +132,15 @@ def evaluate(
 
     Args:
         run_or_policy: Folder of a run, a ``policy.npz``, or an actor.
-        episodes: How many episodes to count; where copies share a world, as many more as fill the
+        episodes: Number of episodes to count; where copies share a world, more to fill the
             last world, so that each of them counts as often as the others.
-        seed: What the environment's seed follows from; see `evaluation_seed`. Trainings draw others.
+        seed: Seed from which the environment's follows; see `evaluation_seed`. Trainings draw others.
         task: The task; needed unless a run names it.
         num_envs: Copies that run at once; by default one an episode, at most 128.
         imports: Modules or files to import first, which register the task.
         trust: Whether to import modules that the run names and ``imports`` does not.
         best: Of a run, take the best policy of the evaluations during the training.
-        workers: How many processes play the episodes. The copies are divided among them with a seed
+        workers: Number of processes that play the episodes. The copies are divided among them with a seed
             each, by their number alone: any number of workers finds the same, but other episodes
             than without workers.
         ray: The workers are on the Ray cluster at this address, ``local`` for one on this machine.

@@ -133,11 +133,11 @@ def play_with_workers(
     """Run the policy in parts that workers play.
 
     Args:
-        setup: Which policy acts in what.
+        setup: Policy and environment.
         sizes: Copies of the environment in each part.
         episodes: Of all parts together.
         seed: Each part has one of its own that follows from it.
-        workers: How many; None for as many as there are processors.
+        workers: Number; None for one a processor.
         ray: The address of a Ray cluster; None for processes on this machine.
 
     Returns:
@@ -178,7 +178,7 @@ class EvaluationHost:
     """A worker's side: plays episodes.
 
     Args:
-        setup: Which policy acts in what.
+        setup: Policy and environment.
     """
 
     def __init__(self, setup: EvaluationSetup) -> None:

@@ -59,7 +59,7 @@ def goal_replay(env: VectorEnv[Any, Any, Any], rows: DictRows | None) -> GoalRep
 
     Args:
         env: Has ``compute_reward``, or its copies have.
-        rows: How the parts of its observations stand in a row.
+        rows: Layout of the parts of its observations in a row.
     """
     if rows is None or not rows.has_goals:
         return None

@@ -43,13 +43,13 @@ class GoalRewards:
     """Works out `GoalReward` step by step.
 
     Args:
-        pay: What is paid for what.
+        pay: Reward terms.
         copies: Of the environment, N.
 
     Attributes:
-        pay: What is paid for what.
+        pay: Reward terms.
         distance: To the goal that is under way [m], NaN where not known yet, shape (N,).
-        waypoints: How many points on the way to it were reached, shape (N,).
+        waypoints: Number of points passed on the way to it, shape (N,).
     """
 
     def __init__(self, pay: GoalReward, copies: int) -> None:

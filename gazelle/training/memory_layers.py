@@ -21,8 +21,8 @@ class PolicyMemory:
     """Memory of a policy in N copies of a task; empty when an episode begins.
 
     Attributes:
-        hidden: What the layers gave last, shape (layers, N, units), float32.
-        cell: What they hold, shape (layers, N, units), float32.
+        hidden: Last outputs of the layers, shape (layers, N, units), float32.
+        cell: Cell states, shape (layers, N, units), float32.
     """
 
     hidden: Floats32
@@ -62,7 +62,7 @@ class MemoryLayers:
         """Return the output of the last layer, shape (N, units), and update the memory.
 
         Args:
-            x: What the first layer is given, shape (N, inputs), float32.
+            x: Input of the first layer, shape (N, inputs), float32.
             memory: Of as many copies.
         """
         for layer, bias in enumerate(self.biases):

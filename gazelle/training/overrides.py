@@ -26,7 +26,7 @@ def with_values(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
     """Return a recipe in which some values are others.
 
     Args:
-        recipe: How it is without them.
+        recipe: Recipe without them.
         values: By name: of a field of `Recipe` (``learning_rate``, ``net_arch`` ...), of its
             settings (``batch_size`` ...), or of its goal reward, as ``goal_reward.collision``.
             For an algorithm with `LibrarySettings`, any argument of its class.

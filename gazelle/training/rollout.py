@@ -35,15 +35,15 @@ class Rollout:
     """So many steps of so many copies; arrays have shape (steps, copies, ...) unless said.
 
     Attributes:
-        observations: What was acted on.
+        observations: Observations of the actions.
         outputs: The last layer's outputs for them.
         actions: Raw, as `Actor.sample` draws them, shape (steps, copies, entries).
-        rewards: What the learner is given, scaled.
+        rewards: Scaled rewards of the learner.
         starts: Whether an episode began with the observation.
         valid: False where the step was spent on a reset.
         cut_off: The episodes that were cut off.
         ended: Those that ended, with the step.
-        last_obs: What is acted on next, shape (copies, ...).
+        last_obs: Next observations, shape (copies, ...).
         last_starts: Whether an episode begins with it, shape (copies,).
     """
 
@@ -72,7 +72,7 @@ def play(
     Args:
         env: The copies of the task.
         actor: The policy.
-        steps: How many.
+        steps: Number of steps.
         rng: Where actions are drawn from.
         on_step: Called after each step; what it returns says whether to continue.
 

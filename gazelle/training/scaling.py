@@ -44,12 +44,12 @@ class ObservationScale:
             nowhere, and then the farthest that was observed counts for how they are scaled.
 
     Attributes:
-        gain: What an entry is multiplied by, shape (entries,).
-        offset: What is added then, shape (entries,).
+        gain: Factor of an entry, shape (entries,).
+        offset: Offset added afterwards, shape (entries,).
         limits: Where entries are cut before that, least and greatest, shape (2, entries).
         moments: Of what was observed: mean, squared deviations, least, greatest, and whether the
             entry is normalised by them, shape (5, entries).
-        tally: How many observations were seen, and whether it is decided what is normalised.
+        tally: Number of observations, and whether the normalised entries are decided.
     """
 
     def __init__(

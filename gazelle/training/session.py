@@ -91,7 +91,7 @@ def train(
     Args:
         task: A task's id or name, or ``module:id`` for one that a module registers.
         algo: ``ppo``, ``dqn``, ``sac``, ``td3`` or ``ddpg``; by default what the recipe says.
-        recipe: How to train; by default the task's own, see `task_recipe`.
+        recipe: Recipe; by default the task's own, see `task_recipe`.
         steps: Control steps in total, instead of the recipe's.
         num_envs: Copies that run at once, instead of the recipe's.
         seed: Seed of everything random.

@@ -49,8 +49,8 @@ def wilson_interval(count: float, total: float, z: float = Z_95) -> tuple[float,
     succession, and statistical inference", JASA 22 (1927) 209-212.
 
     Args:
-        count: How often it happened.
-        total: How often it could have; an effective number may have a fraction.
+        count: Number of occurrences.
+        total: Number of trials; an effective number may have a fraction.
         z: Quantile of the normal distribution; the default gives 95 %.
 
     Returns:
@@ -83,9 +83,9 @@ def clustered_rate(
     (W. G. Cochran, "Sampling Techniques", 3rd ed., 1977, sec. 2.11).
 
     Args:
-        counts: How often it happened in each episode, shape (n,).
-        totals: How often it could have, shape (n,).
-        clusters: Which episodes are the same: equal numbers from 0 up, shape (n,).
+        counts: Number of occurrences in each episode, shape (n,).
+        totals: Number of trials, shape (n,).
+        clusters: Groups of equal episodes: equal numbers from 0 up, shape (n,).
     """
     count, total = int(counts.sum()), int(totals.sum())
     sizes = np.bincount(clusters, weights=totals)
@@ -118,9 +118,9 @@ def rate_between_worlds(
     as repetitions do.
 
     Args:
-        counts: How often it happened in each episode, shape (n,).
-        totals: How often it could have, shape (n,).
-        worlds: Which episodes were in the same world: equal numbers from 0 up, shape (n,).
+        counts: Number of occurrences in each episode, shape (n,).
+        totals: Number of trials, shape (n,).
+        worlds: Groups of episodes in the same world: equal numbers from 0 up, shape (n,).
     """
     count, total = int(counts.sum()), int(totals.sum())
     sizes = np.bincount(worlds, weights=totals)
@@ -161,7 +161,7 @@ class EpisodeLog:
     """Returns, lengths and outcomes of the latest episodes.
 
     Args:
-        window: How many episodes to look back on.
+        window: Number of episodes to average.
     """
 
     def __init__(self, window: int = 200) -> None:

@@ -74,16 +74,16 @@ class Stepper:
         env: A Gymnasium vector environment with observations that are a Box, or a Dict of boxes: then
             its parts in a row are what is learnt from.
         keep_info: Whether ended episodes keep all numbers of their last info.
-        goal_reward: What the learner is given in place of the task's rewards, if anything.
+        goal_reward: Rewards of the learner in place of the task's; None for the task's.
 
     Raises:
         TaskError: The observations are neither.
 
     Attributes:
         observation_space: Of one copy, a Box.
-        rows: How the parts of a Dict stand in a row; None if the observations are a Box.
-        obs: What the policy acts on next, shape (N, ...).
-        scenarios: What the environment says of how the running episodes began, shape (N, size);
+        rows: Layout of the parts of a Dict in a row; None if the observations are a Box.
+        obs: Next observations of the policy, shape (N, ...).
+        scenarios: Scenarios of the running episodes by the environment, shape (N, size);
             None if it says nothing.
     """
 

@@ -83,7 +83,7 @@ class ExperimentHost:
 
     Args:
         module: Where it is.
-        name: What it is called there.
+        name: Name there.
     """
 
     def __init__(self, module: TaskModule, name: str) -> None:
@@ -116,7 +116,7 @@ def conduct(
     """Call the function with all that the study says; what the table has already is left out.
 
     Args:
-        study: What to do.
+        study: Study.
         table: A ``.csv`` file, made or continued.
         workers: Processes; by default as many as there are processors.
         ray: They are on the Ray cluster at this address, ``local`` for one on this machine.

@@ -74,10 +74,10 @@ def sweep(
 
     Args:
         task: A task's id or name, as `train` takes it.
-        plan: What is tried.
+        plan: Plan of the search.
         out: Folder in which the search's folder, ``TASK-sweep``, is made.
         imports: Modules or files that register the task.
-        workers: How many train at once; None for the plan's.
+        workers: Number of parallel trainings; None for the plan's.
         ray: They are on the Ray cluster at this address, ``local`` for one on this machine; None
             for processes here.
         options: Options of the environment.

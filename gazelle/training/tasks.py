@@ -180,7 +180,7 @@ def make_task(name: str, num_envs: int, **options: Any) -> VectorEnv[Any, Any, A
 
     Args:
         name: See `find_task`.
-        num_envs: How many copies.
+        num_envs: Number of copies.
         options: Options of the environment; those that are None are left out.
 
     Raises:

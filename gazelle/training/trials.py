@@ -69,7 +69,7 @@ class TrialHost:
     """A worker's side of a search: trains and evaluates.
 
     Args:
-        job: What all trials share.
+        job: Job of all trials.
         away: Whether the worker may be on another machine, so that it sends its files.
     """
 

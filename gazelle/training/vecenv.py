@@ -36,7 +36,7 @@ class VectorEnvAdapter(SharedVecEnv):
     Args:
         env: The environment.
         reward_scale: Rewards are multiplied by this.
-        goal_reward: What the learner is given in place of the task's rewards, if anything.
+        goal_reward: Rewards of the learner in place of the task's; None for the task's.
         on_episodes: Called with the episodes that ended, at each step where some did.
 
     Attributes:

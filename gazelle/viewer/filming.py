@@ -73,7 +73,7 @@ def take_plan(
     Args:
         simulation: Of a world with ``engine="planar"``.
         path: ``.png``, ``.jpg`` or ``.webp``.
-        world: Which world of a batch.
+        world: World of a batch.
         size: Width and height [pixel].
         scans: Whether to show what rangers and lidars meet.
 

@@ -52,7 +52,7 @@ class LiveView(Closeable):
     Args:
         simulation: With any engine.
         world: The first world of a batch that is shown.
-        worlds: How many are shown beside each other; a few of what there are if None.
+        worlds: Number of worlds shown beside each other; a few if None.
         port: Of the server; any free one if 0.
         rate: Pictures a second at most.
         only_looking: Whether nothing can be changed on the page.

@@ -27,12 +27,12 @@ def take_picture(
     """Render a simulation and write it to a file; needs no graphics card and no screen.
 
     Args:
-        simulation: What to look at.
+        simulation: Simulation to view.
         path: ``.png``, ``.jpg`` or ``.webp``.
         eye: Where the camera is [m].
-        target: What it looks at [m].
+        target: Target point [m].
         size: Width and height [pixel].
-        world: Which world of a batch.
+        world: World of a batch.
 
     Returns:
         The picture, shape (height, width, 3).

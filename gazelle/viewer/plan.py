@@ -41,7 +41,7 @@ class TopView:
 
     Args:
         simulation: Of a world with ``engine="planar"``.
-        world: Which world of a batch.
+        world: World of a batch.
         size: Width and height of pictures [pixel].
         scans: Whether to show what rangers and lidars meet.
         trails: Whether to show where bodies have been at earlier pictures.

@@ -82,7 +82,7 @@ def plot_series(series: Series, horizontal: str, file: Path) -> None:
 
     Args:
         series: The lines; names with the same text before the last ``/`` share a panel.
-        horizontal: What the common axis is.
+        horizontal: Quantity of the common axis.
         file: The picture.
 
     Raises:

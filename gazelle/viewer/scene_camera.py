@@ -34,13 +34,13 @@ class SceneCamera:
     """Draws what is seen of a simulation from somewhere, by the rasteriser.
 
     Args:
-        simulation: What to look at.
+        simulation: Simulation to view.
         eye: Where the camera is [m]; by default where it sees the whole world, or behind the
             model that it follows, and elsewhere as soon as something blocks the view. While it
             follows, in the frame that moves with the model.
-        target: What it looks at [m], likewise.
+        target: Target point [m], likewise.
         follow: Name of a model that the camera goes along with, without turning.
-        world: Which world of a batch.
+        world: World of a batch.
         size: Width and height of pictures [pixel].
         fov: Horizontal field of view [rad].
 

@@ -69,7 +69,7 @@ class RecordingSource(FilmSource):
     """A recorded run, done again.
 
     Args:
-        path: What ``Simulation.record`` wrote.
+        path: File of ``Simulation.record``.
         camera: Makes what looks at it.
 
     Raises:

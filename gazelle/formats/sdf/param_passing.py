@@ -42,7 +42,7 @@ def with_params(
 
     Args:
         model: The element, as its own file has it.
-        include: What includes it.
+        include: Including element.
         reading: Takes what cannot be done as faults.
         name_of: The name of the included model of an ``<include>`` in the model.
     """

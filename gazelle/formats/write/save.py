@@ -37,7 +37,7 @@ def save(
     Meshes are not copied: a relative name in the file is rewritten to lead to the same mesh.
 
     Args:
-        content: What to write; a model alone makes a model file.
+        content: World or model to write; a model alone makes a model file.
         path: The file; an existing one is replaced, once all of the new one is there.
         format: ``sdf`` or ``urdf``; by default from the file's suffix.
 
@@ -59,7 +59,7 @@ def to_string(
     """Return the text that ``save`` would write.
 
     Args:
-        content: What to write.
+        content: World or model to write.
         format: ``sdf`` or ``urdf``.
         folder: Folder the text will stand in, which decides how files are named; by
             default relative names become absolute ones.

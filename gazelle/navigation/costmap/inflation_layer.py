@@ -25,8 +25,8 @@ class InflationLayer(Layer):
 
     Args:
         name: Within the costmap.
-        radius: How far obstacles reach [m].
-        scaling: How fast costs fall off, k above [1/m].
+        radius: Radius of the inflation [m].
+        scaling: Decay of costs, k above [1/m].
         inflate_unknown: Whether unknown cells get costs as far as they are above free; else only
             those within the inscribed radius.
     """

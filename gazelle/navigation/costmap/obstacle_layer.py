@@ -29,7 +29,7 @@ class Observation:
     Attributes:
         time: When [s].
         origin: Of the sensor in the costmap's frame [m], shape (3,).
-        points: What it saw, likewise, shape (n, 3).
+        points: Observed points, likewise, shape (n, 3).
     """
 
     time: float
@@ -45,10 +45,10 @@ class ObservationSource:
         marking: Whether what it sees is an obstacle.
         clearing: Whether what is before that is free.
         obstacle_range: Points farther off are no obstacles [m].
-        raytrace_range: What is farther off is not freed [m].
+        raytrace_range: Range up to which space is cleared [m].
         min_height: Points below are left out [m].
         max_height: Points above, too.
-        persistence: How long observations count [s]; 0 for the last one only.
+        persistence: Time to keep observations [s]; 0 for the last one only.
         observations: Those that count, oldest first.
     """
 

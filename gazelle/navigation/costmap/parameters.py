@@ -47,9 +47,9 @@ class CostmapSetup:
     Attributes:
         costmap: The costmap.
         base_frame: Of the robot.
-        update_frequency: How often to update it [Hz].
-        publish_frequency: How often to publish it [Hz]; 0 for never.
-        transform_tolerance: How old the robot's pose may be [s].
+        update_frequency: Update rate [Hz].
+        publish_frequency: Publishing rate [Hz]; 0 for never.
+        transform_tolerance: Largest age of the robot's pose [s].
         map_topics: Of static layers, by the layer's name.
         sensors: Topics of sensors.
         always_full: Publish all of it each time, never only what changed.
@@ -71,7 +71,7 @@ def costmap_of(values: Values, *, name: str = "costmap", frame: str = "map") -> 
     """Return a costmap from its parameters.
 
     Args:
-        values: What stands below ``~global_costmap`` or ``~local_costmap``, nested.
+        values: Parameters below ``~global_costmap`` or ``~local_costmap``, nested.
         name: Of the costmap, for messages.
         frame: If ``global_frame`` is not there.
 

@@ -27,7 +27,7 @@ class Localizer:
 
     Attributes:
         filter: The particles.
-        estimate: What they agreed on last.
+        estimate: Last common estimate.
         map_to_odom: Where the frame of the odometry is on the map.
     """
 
@@ -106,7 +106,7 @@ class Localizer:
 
         Args:
             odom: Pose of the robot by odometry, when the scan was taken.
-            scan: What the laser saw.
+            scan: Laser scan.
 
         Returns:
             The estimate if there is a new one.

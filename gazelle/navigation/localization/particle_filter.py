@@ -48,8 +48,8 @@ class ParticleFilter:
         most: Number at most.
         error: Greatest error of their distribution (``kld_err``).
         quantile: Of the standard normal distribution (``kld_z``).
-        slow: How fast the long memory of weights fades; 0 for no random particles.
-        fast: How fast the short one does.
+        slow: Decay of the slow average of weights; 0 for no random particles.
+        fast: Decay of the fast average.
         random: Draws.
 
     Attributes:

@@ -51,7 +51,7 @@ class ScanModel:
 
         Args:
             poses: x, y [m] and heading [rad] of the robot, shape (n, 3).
-            scan: What the laser saw.
+            scan: Laser scan.
             converged: Whether poses are close together, so that beams may be skipped which most of them
                 do not expect (``do_beamskip``, with ``likelihood_field_prob``).
         """

@@ -37,8 +37,8 @@ def draw_fitting(
 
     Args:
         candidates: x, y [m] and heading [rad], shape (n, 3).
-        scores: How well the scan fits at each of some poses, up to a factor.
-        count: How many to draw.
+        scores: Score of the scan at each of some poses, up to a factor.
+        count: Number of samples.
         random: Draws.
     """
     found = _drawn(candidates, scores(candidates), count, random)

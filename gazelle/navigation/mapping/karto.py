@@ -77,7 +77,7 @@ class KartoSlam:
     Attributes:
         poses: Of the robot at each scan that is kept, shape (n, 3).
         map_to_odom: Where the frame of the odometry is on the map; None before the first scan.
-        loops: How many were closed.
+        loops: Number of closed loops.
     """
 
     def __init__(self, settings: KartoSettings) -> None:

@@ -24,7 +24,7 @@ class RecoveryBehavior(ABC):
         name: Of the behaviour.
         whole: The global costmap.
         local: The local one.
-        parameters: What stands below its name on the parameter server.
+        parameters: Parameters below its name.
     """
 
     def __init__(self, name: str, whole: Costmap, local: Costmap, parameters: Values) -> None:

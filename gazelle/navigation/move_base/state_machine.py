@@ -79,7 +79,7 @@ class MoveStep:
 
     Attributes:
         velocity: To have; None if it is not to be changed.
-        outcome: How the goal ended, if it did.
+        outcome: Outcome of the goal, if it ended.
         text: Its message.
         plan: A new global plan, if there is one.
         recovery: Number and name of a recovery behaviour that begins now.
@@ -99,10 +99,10 @@ class MoveBase:
         settings: Of ``move_base``.
         planner: Finds paths over the global costmap.
         controller: Follows them over the local one.
-        recoveries: What to do when there is none, one after another.
+        recoveries: Recovery behaviours, in order.
 
     Attributes:
-        phase: What it is doing.
+        phase: Current state.
         goal: In the global costmap's frame.
     """
 

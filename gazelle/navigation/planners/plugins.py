@@ -32,7 +32,7 @@ class GlobalPlannerPlugin(ABC):
     Args:
         name: Of the planner: the last part of its type.
         costmap: The global one.
-        parameters: What stands below its name on the parameter server.
+        parameters: Parameters below its name.
     """
 
     def __init__(self, name: str, costmap: Costmap, parameters: Values) -> None:
@@ -45,7 +45,7 @@ class GlobalPlannerPlugin(ABC):
         Args:
             start: x, y [m] and heading [rad].
             goal: Likewise.
-            tolerance: How far from the goal it may end [m]; the planner's own if None.
+            tolerance: Tolerance of the goal [m]; the planner's own if None.
 
         Returns:
             Poses, shape (n, 3); (0, 3) if there is none.
@@ -58,7 +58,7 @@ class LocalPlannerPlugin(ABC):
     Args:
         name: Of the planner: the last part of its type.
         costmap: The local one.
-        parameters: What stands below its name on the parameter server.
+        parameters: Parameters below its name.
         period: Between two commands [s].
 
     Attributes:

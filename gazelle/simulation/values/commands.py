@@ -169,7 +169,7 @@ class TurnCommand:
     """An orientation to turn to.
 
     Attributes:
-        frame: What it is seen from.
+        frame: Reference frame.
         quaternion: (x, y, z, w), shape (4,).
     """
 

@@ -72,7 +72,7 @@ class LaserPoints:
         points: [m], shape (nworld, rays, 3).
         intensities: Of the returns, shape (rays,).
         rings: Row of each ray, from the lowest, shape (rays,).
-        kept: Which are published, shape (nworld, rays).
+        kept: Mask of published rays, shape (nworld, rays).
     """
 
     stamp: int

@@ -35,7 +35,7 @@ class StageInterface(Closeable):
     Args:
         simulation: Runs.
         node: Called ``stageros``; it stays open when the interface is closed.
-        world: Which world of a batch the graph sees and commands.
+        world: World of a batch that the graph uses.
         rate: Simulated seconds a wall second that ``run`` keeps to; None for as fast as
             possible.
         model_names: Name robots by their models (``stageros -u``).

@@ -23,7 +23,7 @@ class GraphRobot:
         robot: One of them.
         node: On the graph.
         naming: Of topics and frames.
-        world: Which world of a batch the graph sees.
+        world: World of a batch that the graph uses.
     """
 
     simulation: StageFleet

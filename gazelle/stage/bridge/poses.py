@@ -27,7 +27,7 @@ class PoseServices:
         simulation: Runs.
         node: On the graph.
         naming: Of services.
-        world: Which world of a batch the graph sees.
+        world: World of a batch that the graph uses.
         kind: The type; empty for ``USUAL_TYPE`` where that is known, else for none.
 
     Raises:

@@ -44,7 +44,7 @@ class Services:
         simulation: Runs.
         node: On the graph.
         interface: Publishes.
-        world: Which world of a batch the graph commands.
+        world: World of a batch that the graph uses.
     """
 
     def __init__(

@@ -63,7 +63,7 @@ def serve_stage(
             this machine's port 11311. Where no master answers on this machine, one is started.
         name: Of the node, if it is started here.
         host: The name other nodes reach that by; loopback by default.
-        world: Which world of a batch the graph sees and commands.
+        world: World of a batch that the graph uses.
         rate: Simulated seconds a wall second; ``"file"`` for what the world file's
             ``speedup`` says, None for as fast as possible.
         model_names: Name robots by their models instead of ``robot_N`` (``stageros -u``).

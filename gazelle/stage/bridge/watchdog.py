@@ -16,7 +16,7 @@ class Watchdog:
     Args:
         simulation: Runs.
         timeout: In simulated time [s]; 0 or less for never.
-        world: Which world of a batch.
+        world: World of a batch.
     """
 
     def __init__(self, simulation: StageFleet, timeout: float, world: int) -> None:

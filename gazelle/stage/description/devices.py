@@ -28,7 +28,7 @@ class StagePosition:
     """``position``: a base that drives.
 
     Attributes:
-        drive: How its commands move it.
+        drive: Type of drive.
         velocity: At the start, x, y, z [m/s] and yaw [rad/s].
         localization: Whether it reports where it is, or where its odometry puts it.
         localization_origin: Pose that odometry starts from [m, rad]; None: where the robot is.
@@ -97,7 +97,7 @@ class StageCamera:
         resolution: Columns and rows [pixel].
         range: Nearest and farthest depth [m].
         fov: Horizontal and vertical field of view [rad].
-        pantilt: How far the optical axis is turned to the right, and down [rad].
+        pantilt: Pan to the right and tilt down of the optical axis [rad].
     """
 
     resolution: tuple[int, int] = (32, 32)

@@ -91,7 +91,7 @@ class StageBitmap:
     """Prisms from the dark pixels of a picture.
 
     Attributes:
-        uri: What the file said.
+        uri: Text of the file.
         path: The picture.
         cells: True where a wall is, shape (rows, columns), the row of least y first; cut to
             the rectangle that holds all walls. Each cell is a square of pixels' edges.
@@ -206,8 +206,8 @@ class StageModel:
         bitmap: More of its body, from a picture.
         boundary: Whether walls 1 cm thick stand around the body (they are in ``blocks``).
         color: ``random`` for one of no matter.
-        returns: How others perceive it.
-        device: What its type adds; None for a plain ``model``.
+        returns: Returns for other models' sensors.
+        device: Device of its type; None for a plain ``model``.
         controllers: Programs that the file starts on it.
         children: Models mounted on it.
         update_interval: Between two updates [s].

@@ -34,7 +34,7 @@ def is_stage(data: bytes, suffix: str = "") -> bool:
     """Return whether a file looks like one of Stage's: a word and a value, a body or a definition.
 
     Args:
-        data: What is in it.
+        data: Content.
         suffix: Of its name; one of Stage's own decides where the text does not look like XML.
     """
     if data.lstrip(b" \t\r\n\xef\xbb\xbf").startswith(b"<"):

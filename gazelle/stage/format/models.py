@@ -45,7 +45,7 @@ def read_models(
     """Read models that stand beside each other, numbered by their types.
 
     Args:
-        entities: What the file says of them.
+        entities: Entities of the file.
         context: Of the file.
         on_ground: Whether they stand on the ground, which is a ``model`` to Stage, and its first.
 

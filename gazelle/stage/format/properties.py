@@ -40,7 +40,7 @@ class Properties:
     """Reads the properties of one entity; requested names are recorded.
 
     Attributes:
-        entity: What they belong to.
+        entity: Owner.
         reading: Takes remarks.
         units: Of the file.
         own: Read only what stands in the entity itself, not in its macros.

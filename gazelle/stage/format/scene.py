@@ -76,7 +76,7 @@ def scene_of(stage: StageWorld, reading: Reading) -> World:
     """Return the world with ``models`` for the content of a Stage file, and itself as ``content``.
 
     Args:
-        stage: What the file says.
+        stage: Stage world of the file.
         reading: Takes remarks on what is drawn coarser.
     """
     builder = _SceneBuilder(reading, len(stage.robots) > 1, 1.0 / stage.interval_sim)

@@ -27,7 +27,7 @@ class Guarded:
     """Starts a guard and sends it the robot's commands.
 
     Args:
-        node: What the guard's `gazelle_ros.Node` takes.
+        node: Arguments of the guard's `gazelle_ros.Node`.
         topic: Of the commands, ``geometry_msgs/Twist``.
         timeout: The robot stands when the node is silent for so long [s of wall time].
 

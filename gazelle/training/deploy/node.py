@@ -57,8 +57,8 @@ class DeployNode(Closeable):
     Args:
         node: On the graph; it is closed with this.
         policy: Acts.
-        limits: What it may not do.
-        turned: How far the lidar is turned to the left on the robot [rad].
+        limits: Limits of the robot.
+        turned: Yaw of the lidar on the robot, to the left [rad].
         time_limit: For each goal [s]; None for that of the contract.
         log: File for the log of interventions.
         on_end: Called with the outcome of a goal, by the driving thread; it may give the next one.

@@ -60,15 +60,15 @@ class Pilot:
 
     Args:
         policy: Acts.
-        limits: What it may not do.
-        turned: How far the lidar is turned to the left on the robot [rad].
+        limits: Limits of the robot.
+        turned: Yaw of the lidar on the robot, to the left [rad].
         time_limit: For each goal [s]; None for that of the contract, which may be none.
 
     Attributes:
         armed: Whether it may drive.
         goal: Where it goes; None where it has nothing to do.
         waiting: Goals that follow.
-        outcomes: What became of goals.
+        outcomes: Counts of outcomes.
     """
 
     def __init__(

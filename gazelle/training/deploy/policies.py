@@ -43,7 +43,7 @@ class Policy:
 
     Args:
         brain: Acts.
-        contract: What it sees and does.
+        contract: Observations and actions.
 
     Raises:
         TaskError: Its actions are no velocities.

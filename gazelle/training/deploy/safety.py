@@ -79,9 +79,9 @@ class SafetyLimits:
         """Return the nearest thing in the way of a command, if it is nearer than it may be [m].
 
         Args:
-            command: What the robot is to do.
+            command: Command of the robot.
             scan: The newest; all rays count, not only those that the policy sees.
-            turned: How far the lidar is turned to the left [rad].
+            turned: Yaw of the lidar, to the left [rad].
         """
         if command.linear == 0.0 or self.stop_distance == 0.0:
             return None

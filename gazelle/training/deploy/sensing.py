@@ -51,7 +51,7 @@ class ScanReading:
         """Return angles of the rays from straight ahead [rad], shape (rays,), in [-pi, pi].
 
         Args:
-            turned: How far the lidar itself is turned to the left [rad].
+            turned: Yaw of the lidar itself, to the left [rad].
         """
         steps = np.arange(len(self.ranges), dtype=np.float64)
         angles: Floats = self.angle_min + turned + self.angle_increment * steps
@@ -79,7 +79,7 @@ class Observer:
 
     Args:
         contract: Of the policy.
-        turned: How far the lidar is turned to the left on the robot [rad].
+        turned: Yaw of the lidar on the robot, to the left [rad].
 
     Raises:
         TaskError: The contract has a part that no sensor gives.
@@ -142,9 +142,9 @@ def sampled(scan: ScanReading, rule: ScanRule, rays: int, *, turned: float = 0.0
 
     Args:
         scan: Of the lidar.
-        rule: How the policy's ranges are made.
-        rays: How many it sees.
-        turned: How far the lidar is turned to the left [rad].
+        rule: Rule of the policy's ranges.
+        rays: Number of its rays.
+        turned: Yaw of the lidar, to the left [rad].
 
     Returns:
         Ranges [m] that a float32 holds exactly, shape (rays,).

@@ -18,7 +18,7 @@ class CriticUpdate:
 
     Attributes:
         scale: Of observations.
-        ways: How it learns, beyond what Stable-Baselines3 knows.
+        ways: Learning settings beyond those of Stable-Baselines3.
         critic_weight: Of the critics' squared errors in their loss.
     """
 

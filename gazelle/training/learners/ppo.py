@@ -50,7 +50,7 @@ class MaskedRolloutBuffer(RolloutBuffer):  # type: ignore[misc]  # untyped base
     """A rollout buffer that gives only the valid transitions to the learner.
 
     Attributes:
-        valid: Which transitions are valid, shape (steps, copies).
+        valid: Mask of valid transitions, shape (steps, copies).
         rng: Where the order of the minibatches comes from.
     """
 

@@ -23,7 +23,7 @@ class Transitions:
     """Transitions of a rollout, n of them.
 
     Attributes:
-        features: What the networks are given, shape (n, features); of pictures these themselves,
+        features: Inputs of the networks, shape (n, features); images as they are,
             as the layers that look at them learn, too.
         actions: Numbers of choices, int64 of shape (n,), or float32 of shape (n, actions).
         log_probs: Of the actions when they were drawn, shape (n,).

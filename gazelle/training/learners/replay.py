@@ -39,8 +39,8 @@ class MaskedReplayBuffer(ReplayBuffer):  # type: ignore[misc]  # untyped base
         """Sample transitions of the first control steps, with their own goals.
 
         Args:
-            batch_size: How many.
-            rows: How many control steps of all copies count as the first.
+            batch_size: Number of samples.
+            rows: Number of control steps of all copies that count as the first.
 
         Returns:
             Fewer where some are not valid; None where no such step is in the memory any more, or

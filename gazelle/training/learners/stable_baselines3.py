@@ -28,7 +28,7 @@ def build_library_learner(recipe: Recipe, env: VectorEnvAdapter, common: dict[st
     Args:
         recipe: With `LibrarySettings`.
         env: The environment.
-        common: What all algorithms take.
+        common: Settings of all algorithms.
 
     Raises:
         MissingExtraError: sb3-contrib is not installed.

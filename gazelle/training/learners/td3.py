@@ -93,7 +93,7 @@ class DeterministicLearner(CriticUpdate, TD3):  # type: ignore[misc]  # untyped 
 
         Args:
             features: Of the minibatch, shape (n, entries).
-            shown: What is imitated, if anything.
+            shown: Demonstrations to imitate, if any.
         """
         count = len(features)
         seen = features if shown is None else torch.cat((features, shown.features))

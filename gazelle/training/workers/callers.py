@@ -29,11 +29,11 @@ def call_all(
     A worker that is lost is replaced, and its job is tried again.
 
     Args:
-        jobs: What is sent. Taken one at a time, so that it may depend on what is done by then.
+        jobs: Jobs. Taken one at a time, so that one may depend on results so far.
         start: Makes the link to a new worker; its ``call`` does a job.
         done: Called with each job and its answer, None where all workers that tried it were lost;
             from several threads, never two at a time.
-        workers: How many there are at most.
+        workers: Largest number of workers.
     """
     queue = _Queue(jobs, done)
     callers = [_Caller(start, queue) for _ in range(workers)]
@@ -54,7 +54,7 @@ def workers_at(
 
     Args:
         ray: The address of a Ray cluster; None for processes on this machine.
-        workers: How many; None for as many as there are processors.
+        workers: Number; None for one a processor.
         make: Makes what answers there; a name that can be imported.
         arguments: Of ``make``.
 

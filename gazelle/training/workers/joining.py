@@ -24,8 +24,8 @@ def join_workers(
     """Start workers for a run.
 
     Args:
-        config: What shapes the run.
-        workers: How many; by default one, or as many as a cluster has processors.
+        config: Configuration of the run.
+        workers: Number of workers; by default one, or one for each processor of a cluster.
         ray: The address of a Ray cluster; None for processes on this machine.
         on_episodes: Called with the episodes that ended.
 

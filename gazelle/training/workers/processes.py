@@ -31,7 +31,7 @@ class ProcessLink:
     Args:
         make: Makes what answers there, such as `ShardHost`; a name that can be imported.
         arguments: Of ``make``.
-        threads: How many threads its engine may use.
+        threads: Number of threads of its engine.
     """
 
     def __init__(self, make: Callable[..., Any], *arguments: Any, threads: int) -> None:

@@ -32,7 +32,7 @@ def divided(copies: int, unit: int = 1) -> tuple[int, ...]:
     The division depends on nothing else, so that results do not either.
 
     Args:
-        copies: How many there are.
+        copies: Number of copies.
         unit: Copies that cannot be apart, such as the robots of one world.
 
     Raises:
@@ -96,8 +96,8 @@ class Shard:
     """Some copies of a task with generators of their own.
 
     Args:
-        blueprint: What they are copies of.
-        number: Which of the blueprint's shards.
+        blueprint: Blueprint of the copies.
+        number: Index of the blueprint's shard.
     """
 
     def __init__(self, blueprint: Blueprint, number: int) -> None:
@@ -144,8 +144,8 @@ class ShardHost:
     """A worker's side: holds shards and runs requests.
 
     Args:
-        blueprint: What the shards are made from.
-        numbers: Which it holds.
+        blueprint: Blueprint of the shards.
+        numbers: Indices of its shards.
     """
 
     def __init__(self, blueprint: Blueprint, numbers: Sequence[int]) -> None:

@@ -49,14 +49,14 @@ class Team:
 
     Args:
         start: Makes the link to a new worker with these shards.
-        shards: How many there are in all.
-        workers: How many share them.
+        shards: Number of shards.
+        workers: Number of workers.
 
     Raises:
         TaskError: There are more workers than shards.
 
     Attributes:
-        replaced: How many workers were lost and replaced.
+        replaced: Number of workers lost and replaced.
     """
 
     def __init__(

@@ -33,10 +33,10 @@ class WorkerVecEnv(SharedVecEnv):
         copy: Makes as few copies as can be here, for what needs no step.
 
     Attributes:
-        obs: What is acted on next, shape (N, ...).
-        starts: Which copies begin an episode with it, shape (N,).
+        obs: Next observations, shape (N, ...).
+        starts: Mask of copies that begin an episode with it, shape (N,).
         control_period: Simulated seconds of a control step; None if unknown.
-        contract: What the task says of what its policies see and do.
+        contract: Contract of the task's policies.
     """
 
     def __init__(

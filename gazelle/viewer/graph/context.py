@@ -26,7 +26,7 @@ class GraphContext(UserActions):
         server: Of the page.
         tree: Frames of the graph.
         robots: Robots of the graph by the parameters of their descriptions.
-        requested_frame: What stands still; "" for the first there is of map, odom, world, base_link.
+        requested_frame: Fixed frame; "" for the first there is of map, odom, world, base_link.
     """
 
     node: Node

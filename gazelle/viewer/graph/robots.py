@@ -33,7 +33,7 @@ class DescribedRobot:
     Attributes:
         text: Likewise.
         prefix: Likewise.
-        model: What it describes.
+        model: Model of the description.
         placed: Whether tf knows any of its links.
 
     Raises:

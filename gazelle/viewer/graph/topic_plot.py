@@ -41,8 +41,8 @@ class TopicPlot:
         node: On the graph.
         topic: Its name.
         names: Of the numbers, where the messages do not label them.
-        horizontal: What is counted.
-        keep: How many of the latest rows are drawn; all if None.
+        horizontal: Quantity of the horizontal axis.
+        keep: Number of latest rows to draw; all if None.
         file: The picture.
     """
 

@@ -34,7 +34,7 @@ class GraphView(Closeable):
 
     Args:
         master_uri: Of the master; ``ROS_MASTER_URI`` if None.
-        frame: What stands still; the first there is of map, odom, world, base_link if None.
+        frame: Fixed frame; the first there is of map, odom, world, base_link if None.
         port: Of the page; any free one if 0.
 
     Attributes:

@@ -63,9 +63,9 @@ class PageContext(UserActions):
     """Context of a page: what it shows, and access of its parts to the simulation.
 
     Attributes:
-        simulation: What runs.
+        simulation: Simulation.
         page: viser's server.
-        worlds: Which worlds are shown, shape (n,).
+        worlds: Shown worlds, shape (n,).
         spots: Where they stand [m], shape (n, 3).
         selected: Name of the model that tools work on, "" for none.
         world: Number of the world that tools work on, among those shown.

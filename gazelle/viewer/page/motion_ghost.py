@@ -36,7 +36,7 @@ class MotionGhost:
         scene: Of the page.
         root: Under which name it is.
         model: The robot.
-        motion: What it will do.
+        motion: Planned motion.
 
     Attributes:
         motion: Likewise.

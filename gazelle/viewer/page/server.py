@@ -50,7 +50,7 @@ class PageServer(Closeable):
         port: Any free one if 0.
 
     Attributes:
-        viser: What the page shows and has on its panel.
+        viser: Server of the page and its panel.
         url: Where the page is, with the secret.
         handlers: Requests that scripts on the page may make, by name.
 

@@ -74,7 +74,7 @@ class ShapeBatches:
     Args:
         scene: Of the page.
         root: Under which name they are.
-        world: What there is.
+        world: World to show.
         spots: Where the copies stand [m], shape (copies, 3).
         on_batch: Called with every batch, with what names the part of an instance.
         opacity: Below 1 is transparent.

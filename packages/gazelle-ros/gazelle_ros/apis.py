@@ -39,7 +39,7 @@ class Api:
     """Methods by name.
 
     Args:
-        methods: What there is; missing and superfluous arguments are answered with -1.
+        methods: Methods; missing and superfluous arguments are answered with -1.
     """
 
     def __init__(self, methods: dict[str, Method]) -> None:

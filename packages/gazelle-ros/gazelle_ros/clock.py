@@ -39,7 +39,7 @@ class TimeSource(Protocol):
         """Wait for that long on this clock.
 
         Args:
-            nanoseconds: How long; not at all if it is not positive.
+            nanoseconds: Duration; none if it is not positive.
             cancelled: Looked at now and then; when true, the sleep ends.
 
         Returns:

@@ -155,7 +155,7 @@ class TimeMovedBackwardsError(RosError):
     """Simulated time jumped back while something slept.
 
     Attributes:
-        jump: How far, in seconds (negative).
+        jump: Jump, in seconds (negative).
     """
 
     def __init__(self, jump: float) -> None:
@@ -167,8 +167,8 @@ def report(what: str, error: BaseException) -> None:
     """Log an error that must not stop the thread it happened in.
 
     Args:
-        what: What was being done, such as ``callback of /scan``.
-        error: What went wrong; its traceback goes along, unless it is one of ours that code of
+        what: Action that failed, such as ``callback of /scan``.
+        error: Error; its traceback is logged, unless it is one of ours that code of
             ours raised: a peer that refuses needs no traceback.
     """
     import logging

@@ -51,11 +51,11 @@ class Node(TopicNode, ServiceNode, Closeable):
             `ROS_HOSTNAME`, else `ROS_IP`, else loopback.
         anonymous: Append process and time, so that many may run.
         remappings: From old names to new ones, as on a command line.
-        clock: What time it is for this node; by default wall time, or simulated time from
+        clock: Source of the time for this node; by default wall time, or simulated time from
             ``/clock`` if the parameter ``/use_sim_time`` is set.
         share_messages: Give subscribers in this process the published object itself when
             there is no other subscriber; otherwise every subscriber gets a copy.
-        limits: What peers may demand.
+        limits: Limits for peers.
 
     Attributes:
         name: The node's global name.
@@ -63,7 +63,7 @@ class Node(TopicNode, ServiceNode, Closeable):
         uri: Of the node's XML-RPC server.
         master: The API of the master.
         parameters: The parameter server as this node sees it.
-        clock: What time it is.
+        clock: Source of the time.
         statistics: Measures subscriptions, if the graph wants that.
         on_shutdown: Called with a reason when the master or a tool ends the node.
         on_new_master: Called when the node has registered with a master that took the place of

@@ -52,7 +52,7 @@ class NodeBase(ABC):
         tcpros_port: Where topics and services connect to.
         master: The API of the master.
         parameters: The parameter server as this node sees it.
-        clock: What time it is.
+        clock: Source of the time.
     """
 
     name: str

@@ -33,9 +33,9 @@ class PeerReports:
         """Report a message that cannot be read; a traceback would show our code, not the fault.
 
         Args:
-            what: What it was for, such as ``subscriber of /scan``.
+            what: Purpose, such as ``subscriber of /scan``.
             peer: The sender.
-            error: What went wrong.
+            error: Error.
         """
         now = time.monotonic()
         with self._lock:

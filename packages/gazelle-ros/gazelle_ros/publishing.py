@@ -262,7 +262,7 @@ class Publisher:
     """Publisher of messages on a topic, as `Node.advertise` returns it.
 
     Args:
-        publication: What it publishes through.
+        publication: Publication that it uses.
         on_close: Called with itself when it is closed.
         on_connect: See the attribute.
         on_disconnect: See the attribute.

@@ -65,7 +65,7 @@ class ReconfigureServer:
     Args:
         node: Serves and publishes.
         namespace: Of the service and the topics.
-        tuning: What can be changed.
+        tuning: Parameters that can be changed.
     """
 
     def __init__(self, node: Node, namespace: str, tuning: Tuned) -> None:

@@ -23,7 +23,7 @@ class SerialQueue:
     Args:
         loop: The loop of the workers.
         handle: Called with each item; may take long, may raise.
-        what: What the items are, for the report of an error.
+        what: Kind of the items, for the report of an error.
     """
 
     __slots__ = ("_handle", "_loop", "_runner", "_running", "items", "what")

@@ -318,8 +318,8 @@ class Subscriber:
     """Subscriber to a topic, as `Node.subscribe` returns it: a callback gets the messages.
 
     Args:
-        subscription: What it gets them from.
-        message_class: What it wants them to be.
+        subscription: Subscription of the messages.
+        message_class: Class of the messages.
         callback: Called with each.
         queue_size: Messages kept while callbacks are slow; None for all.
         on_close: Called with itself when it is closed.

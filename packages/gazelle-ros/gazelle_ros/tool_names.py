@@ -54,7 +54,7 @@ def process_name(words: Sequence[str]) -> str | None:
     A script that is executed keeps its own name, as with ROS.
 
     Args:
-        words: What follows ``gazelle``.
+        words: Arguments after ``gazelle``.
 
     Returns:
         A name such as ``rostopic``; None if there is none.

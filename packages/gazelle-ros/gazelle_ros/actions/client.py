@@ -30,7 +30,7 @@ class GoalMachine:
 
     Args:
         client: Whose goal it is.
-        action_goal: What was sent.
+        action_goal: Sent goal.
         transition_cb: Called with the handle whenever the state changes.
         feedback_cb: Called with the handle and the feedback.
     """
@@ -216,7 +216,7 @@ class ActionClient:
         """Send a goal.
 
         Args:
-            goal: What is to be done.
+            goal: Goal.
             transition_cb: Called with the handle whenever the goal's state changes.
             feedback_cb: Called with the handle and each feedback.
         """

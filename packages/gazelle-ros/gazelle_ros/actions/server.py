@@ -189,10 +189,10 @@ class ActionServer:
         goal_cb: Called with each new goal.
         cancel_cb: Called with each goal to be cancelled.
         auto_start: Start at once.
-        clock: What time it is, if not the node's; rates of topics are those of the wall's clock.
+        clock: Source of the time, if not the node's; rates of topics are those of the wall's clock.
 
     Attributes:
-        clock: What time it is.
+        clock: Source of the time.
         status_list: The goals it speaks of, oldest first.
 
     Raises:

@@ -61,7 +61,7 @@ class SimpleActionClient:
         """Send a goal.
 
         Args:
-            goal: What is to be done.
+            goal: Goal.
             done_cb: Called at the end with the `GoalStatus` and the result.
             active_cb: Called when work begins.
             feedback_cb: Called with each feedback.
@@ -80,7 +80,7 @@ class SimpleActionClient:
         """Send a goal and wait for its end; cancel it if that does not come in time.
 
         Args:
-            goal: What is to be done.
+            goal: Goal.
             execute_timeout: The longest wait for the result; 0 for ever.
             preempt_timeout: The longest wait after cancelling; 0 for ever.
 

@@ -33,9 +33,9 @@ class ActionTypes:
     Attributes:
         action_goal: Goes to the server, with header and id; so do `action_result` and
             `action_feedback` come back.
-        goal: What is to be done.
-        result: What came of it.
-        feedback: What is happening.
+        goal: Goal.
+        result: Result.
+        feedback: Feedback.
     """
 
     action_goal: Any

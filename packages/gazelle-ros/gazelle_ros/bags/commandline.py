@@ -55,7 +55,7 @@ def record(args: argparse.Namespace, node_options: Mapping[str, Any] | None = No
     """Record; returns the exit code.
 
     Args:
-        args: What `configure_record` declares.
+        args: Arguments of `configure_record`.
         node_options: Of the node; by default it has a name of its own.
     """
     from gazelle_ros.bags.recording import BagRecorder, RecordOptions, check, duration_of
@@ -120,7 +120,7 @@ def play(args: argparse.Namespace, node_options: Mapping[str, Any] | None = None
     """Play bags; returns the exit code.
 
     Args:
-        args: What `configure_play` declares.
+        args: Arguments of `configure_play`.
         node_options: Of the node; by default it has a name of its own.
     """
     from gazelle_ros.bags.playing import Player, PlayOptions

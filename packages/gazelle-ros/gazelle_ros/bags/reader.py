@@ -131,7 +131,7 @@ class BagReader:
         allow_unindexed: Look through a bag without an index instead of refusing it.
 
     Attributes:
-        index: What is in it.
+        index: Index of the bag.
         begin: Where in the file the first record after the header is.
 
     Raises:
@@ -276,7 +276,7 @@ def messages_of(
 
     Args:
         file: The bag's bytes.
-        index: What is in it.
+        index: Index of the bag.
         connections: Of these only.
         start: Not before this time [ns].
         end: Not after this time [ns].

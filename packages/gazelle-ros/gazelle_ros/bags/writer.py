@@ -23,13 +23,13 @@ class BagWriter:
 
     Args:
         file: Open for reading and writing.
-        index: What is in the file already; empty for a new one.
+        index: Index of the existing file; empty for a new one.
         compression: ``none``, ``bz2`` or ``lz4``.
         chunk_bytes: Uncompressed bytes after which a chunk is complete.
         header_bytes: Length of the header that is in the file already.
 
     Attributes:
-        index: What was written, without the chunk that is not complete.
+        index: Index of the written chunks, without the incomplete one.
 
     Raises:
         BagError: The compression is unknown.

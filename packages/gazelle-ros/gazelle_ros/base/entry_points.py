@@ -44,7 +44,7 @@ def load(point: EntryPoint, what: str, error: type[Error]) -> Any:
 
     Args:
         point: The entry point.
-        what: What it is, in the text of an error.
+        what: Subject of an error.
         error: Class of the error.
 
     Raises:

@@ -35,11 +35,11 @@ class Error(Exception):
     """Root of all errors that Gazelle raises on purpose.
 
     Attributes:
-        message: What is wrong, and what was expected.
+        message: Description of the problem, and what was expected.
         file: Path or name of the offending file, if the fault is in one.
         line: Line in that file, counted from 1.
         element: The element, such as ``link[@name='base']/inertial/mass``.
-        hint: What to do about it.
+        hint: Fix.
     """
 
     def __init__(

@@ -30,7 +30,7 @@ def package_folders(root: Path, *, most: float = math.inf) -> Iterator[Path]:
 
     Args:
         root: Where to begin; it may be a package itself.
-        most: How many folders are looked into at most.
+        most: Largest number of searched folders.
     """
     return _below(root, _DEEPEST, set(), most)
 

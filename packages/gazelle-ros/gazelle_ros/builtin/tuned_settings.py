@@ -56,13 +56,13 @@ class TunedSettings(Generic[Settings]):
 
     Args:
         node: On the graph.
-        settings: What holds at first; its fields that are `tunable` can be changed.
+        settings: Initial settings; fields that are `tunable` can be changed.
         change: Called with the settings that are to hold; what it raises refuses them.
         namespace: Of the server.
 
     Attributes:
-        tunables: What can be changed, by name.
-        settings: What holds.
+        tunables: Parameters that can be changed, by name.
+        settings: Current settings.
     """
 
     def __init__(

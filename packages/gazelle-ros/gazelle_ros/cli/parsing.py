@@ -126,7 +126,7 @@ def add_worker_options(parser: argparse.ArgumentParser, what: str) -> None:
 
     Args:
         parser: Where they are declared.
-        what: What the processes are for.
+        what: Purpose of the worker processes.
     """
     parser.add_argument("--workers", metavar="N", type=positive_int, help=what)
     parser.add_argument(

@@ -22,7 +22,7 @@ def import_fault(error: BaseException) -> RosError | None:
     """Return the error that takes the place of a traceback; None for what is no import of a script.
 
     Args:
-        error: What the script raised.
+        error: Exception of the script.
     """
     hint: str | None
     if isinstance(error, ModuleNotFoundError) and error.name:

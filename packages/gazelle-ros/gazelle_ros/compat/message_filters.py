@@ -80,7 +80,7 @@ class Cache(SimpleFilter):
 
     Args:
         f: The filter.
-        cache_size: How many.
+        cache_size: Size of the cache.
         allow_headerless: Stamp messages without a header when they come.
     """
 
@@ -150,7 +150,7 @@ class TimeSynchronizer(SimpleFilter):
 
     Args:
         fs: The filters.
-        queue_size: How many messages of each may wait.
+        queue_size: Longest queue of each.
         reset: Forget those that wait when time jumps back.
     """
 
@@ -209,8 +209,8 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
 
     Args:
         fs: The filters.
-        queue_size: How many messages of each may wait.
-        slop: How close [s].
+        queue_size: Longest queue of each.
+        slop: Largest difference of stamps [s].
         allow_headerless: Stamp messages without a header when they come.
         reset: Forget those that wait when time jumps back.
     """

@@ -152,7 +152,7 @@ def attribute_hint(module: str, name: str) -> str | None:
 
     Args:
         module: Its public name, such as ``gym.wrappers``.
-        name: What was to be imported.
+        name: Name of the import.
     """
     if module == "PyKDL":
         return "Gazelle's PyKDL has frames, chains and kinematics; dynamics are not there"

@@ -87,7 +87,7 @@ def explain(error: BaseException, source: str) -> list[Python2Finding]:
     """Find the Python 2 code in a script that explains an error; empty if there is none.
 
     Args:
-        error: What compiling or running the script raised.
+        error: Exception of compiling or running the script.
         source: The script.
     """
     if isinstance(error, SyntaxError):

@@ -168,7 +168,7 @@ class ROSTopicHz:
     """Measures how often messages come.
 
     Args:
-        window_size: How many messages count, the last ones; below 0 for nearly all.
+        window_size: Number of latest messages; below 0 for nearly all.
         filter_expr: Counts only the messages it accepts.
         use_wtime: Go by the time of the machine.
     """

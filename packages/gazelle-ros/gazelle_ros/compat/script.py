@@ -70,7 +70,7 @@ def run_named(
 
     Args:
         word: A script's path, or a package. ``python3`` before a script is passed over.
-        arguments: What follows it on the command line; after a package, the program first.
+        arguments: Arguments on the command line; after a package, the program first.
         sim_sleep: See `run_script`.
         debug: See `run_script`.
 

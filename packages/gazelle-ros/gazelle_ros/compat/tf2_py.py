@@ -33,7 +33,7 @@ class BufferCore:
     """Frames over time.
 
     Args:
-        cache_time: How long transforms are kept, 10 s by default.
+        cache_time: Time to keep transforms, 10 s by default.
     """
 
     def __init__(self, cache_time: Any = None) -> None:

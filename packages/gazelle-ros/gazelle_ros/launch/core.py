@@ -45,7 +45,7 @@ def master_program(host: str, port: int, run_id: str) -> Program:
     Args:
         host: The name nodes reach it by.
         port: Where it answers.
-        run_id: What it is to have as ``/run_id``.
+        run_id: Value for ``/run_id``.
     """
     words = ("--core", "-p", str(port), "--host", host, "--run-id", run_id)
     return Program((sys.executable, "-m", "gazelle_ros.master.rosmaster", *words), None)

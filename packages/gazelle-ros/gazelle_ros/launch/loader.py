@@ -58,7 +58,7 @@ def load_launch(
         path: One file or several, which are read in order.
         args: Values of arguments by name.
         packages: Where packages are looked up; by default along ROS_PACKAGE_PATH.
-        environment: What ``$(env X)`` reads; by default the process's environment.
+        environment: Variables for ``$(env X)``; by default the process's environment.
         namespace: Where everything is put that has a relative name.
 
     Raises:

@@ -35,7 +35,7 @@ def read_node(
 
     Args:
         element: The element.
-        children: What stands in it.
+        children: Child elements.
         scope: The scope around it.
         inner: The scope with the node's namespace.
         plan: Gets what ``<rosparam>`` in it loads.

@@ -86,7 +86,7 @@ class Packages:
 
         Args:
             package: Name of the package.
-            path: What follows, up to a blank or the next ``$(``.
+            path: Path after it, up to a blank or the next ``$(``.
             followed: Whether another ``$(`` follows the path.
 
         Raises:

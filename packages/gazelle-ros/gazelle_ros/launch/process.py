@@ -55,12 +55,12 @@ class NodeProcess:
 
     Args:
         plan: The node.
-        name: What it is called in messages, such as ``talker-1``.
-        start: How it is started.
+        name: Name in messages, such as ``talker-1``.
+        start: Start settings.
 
     Attributes:
         ended_at: When it was last seen to have ended; None while it runs.
-        spawned: How often it was started.
+        spawned: Number of starts.
     """
 
     def __init__(self, plan: NodePlan, name: str, start: Start) -> None:
@@ -175,9 +175,9 @@ def stop_all(
     """Stop processes, all at the same time: SIGINT, then SIGTERM, then SIGKILL.
 
     Args:
-        processes: What to end.
-        patience: How long it may take.
-        first: What is sent instead of SIGINT.
+        processes: Processes to end.
+        patience: Longest time.
+        first: Signal to send instead of SIGINT.
 
     Returns:
         Those that took more than the first signal.

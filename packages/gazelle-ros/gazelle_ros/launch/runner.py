@@ -70,8 +70,8 @@ class Launch(Closeable):
             code = launch.spin()
 
     Args:
-        plan: What to do.
-        options: How to do it.
+        plan: Plan of the launch.
+        options: Options of the launch.
         say: Gets lines for people.
         packages: Where programs are looked up.
 

@@ -43,9 +43,9 @@ class TestReport:
     """Report of the tests of a launch file.
 
     Attributes:
-        name: What the report is called.
+        name: Name of the report.
         cases: All cases.
-        seconds: How long it took.
+        seconds: Duration.
     """
 
     __test__ = False  # it is no test of pytest's

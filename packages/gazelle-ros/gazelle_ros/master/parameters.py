@@ -134,8 +134,8 @@ def changes(
     Args:
         tree: After the change.
         subscribed: The keys with subscribers.
-        key: What was changed.
-        value: What it is now.
+        key: Changed key.
+        value: New value.
 
     Yields:
         The subscribed key, the key to report (with a slash at the end), and the value to report.

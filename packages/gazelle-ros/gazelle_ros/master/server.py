@@ -34,8 +34,8 @@ class Master(Closeable):
         port: 0 for any free one.
         rosout: As roscore does, run the node ``/rosout`` that copies ``/rosout`` to
             ``/rosout_agg``, and set ``/run_id`` and its like; without, as bare rosmaster.
-        run_id: What ``/run_id`` is to be; with it, ``/run_id`` and its like are set in any case.
-        limits: What peers may demand.
+        run_id: Value for ``/run_id``; with it, ``/run_id`` and its like are set in any case.
+        limits: Limits for peers.
         ended: See the attribute.
 
     Attributes:

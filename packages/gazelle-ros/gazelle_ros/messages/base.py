@@ -27,7 +27,7 @@ class Message:
 
     Attributes:
         _type: Full name, such as ``geometry_msgs/Twist``.
-        _md5sum: What identifies the definition on the wire.
+        _md5sum: MD5 sum of the definition on the wire.
         _full_text: The definition and all it depends on.
         _has_header: Whether the first field is ``Header header``.
         _slot_types: Type of each field, in the order of ``__slots__``.

@@ -39,7 +39,7 @@ class TreeJoint:
         axis: Unit vector in the child's frame.
         lower: Least position [rad or m]; None without limits.
         upper: Largest position [rad or m]; None without limits.
-        mimic: What it follows; None if it moves by itself.
+        mimic: Mimicked joint; None if it moves by itself.
     """
 
     name: str

@@ -36,7 +36,7 @@ def bridge(settings: BridgeSettings, master_uri: str | None = None) -> Iterator[
     """Run both nodes in this process, for as long as the block lasts.
 
     Args:
-        settings: How the server listens.
+        settings: Settings of the server.
         master_uri: Of the graph; ``ROS_MASTER_URI``'s if None.
 
     Raises:

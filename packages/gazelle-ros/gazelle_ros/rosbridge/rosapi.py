@@ -27,7 +27,7 @@ class RosApi(Closeable):
 
     Args:
         node: Serves.
-        settings: What may be seen: its patterns.
+        settings: Settings with the visible patterns.
     """
 
     def __init__(self, node: Node, settings: BridgeSettings) -> None:

@@ -34,7 +34,7 @@ def fill_message(message: Any, values: Any, now: Time) -> Any:
     Args:
         message: Of any type; it is returned.
         values: A JSON object.
-        now: What headers get that have no stamp, and times that are ``"now"``.
+        now: Stamp of headers that have none, and of times that are ``"now"``.
 
     Raises:
         MessageException: A field is not there, or a value does not fit its type.

@@ -29,7 +29,7 @@ class OutboundLink:
     Args:
         loop: Where it lives.
         sock: Connected, header exchanged, non-blocking.
-        header: What the subscriber sent.
+        header: Header of the subscriber.
         address: Of the subscriber.
         queue_size: Most frames to keep; None to wait instead.
         on_close: Called on the loop's thread when the connection is gone.

@@ -88,7 +88,7 @@ class MovingCache:
     """A frame that moves: placements by time, over the last seconds.
 
     Args:
-        length: How long before the latest a placement is kept [ns].
+        length: Time to keep a placement before the latest [ns].
     """
 
     __slots__ = ("_first", "_length", "_placements", "_stamps")

@@ -74,7 +74,7 @@ class FrameTree:
     """All frames, and for each what is known of it.
 
     Args:
-        cache_ns: How long placements are kept [ns].
+        cache_ns: Time to keep placements [ns].
     """
 
     def __init__(self, cache_ns: int = DEFAULT_CACHE_NS) -> None:

@@ -33,7 +33,7 @@ def twist(
         point: Where the velocity is taken [m].
         point_frame: The frame of `point`.
         stamp: In the middle of the interval [ns], 0 for the latest.
-        interval: How long [ns].
+        interval: Interval [ns].
 
     Raises:
         TransformException: There is no transform; its class says why.

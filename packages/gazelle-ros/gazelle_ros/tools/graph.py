@@ -21,7 +21,7 @@ class GraphInspector(Closeable):
     """A tool's access to a master.
 
     Args:
-        tool: What the tool calls itself, such as ``rostopic``.
+        tool: Name of the tool, such as ``rostopic``.
         master_uri: By default `ROS_MASTER_URI`, else this machine.
         namespace: Where relative names are seen from; by default `ROS_NAMESPACE`.
     """

@@ -190,7 +190,7 @@ def ping(
         name: The node.
         out: Gets the text.
         stop: Ends it.
-        count: How often; None until `stop` is set.
+        count: Number of times; None until `stop` is set.
         complain: Gets what goes wrong.
 
     Returns:

@@ -172,7 +172,7 @@ class MessagePublisher:
 
         Args:
             arguments: Its values.
-            hertz: How often.
+            hertz: Rate [Hz].
             fresh: Let ``now`` and ``auto`` mean the time of each.
         """
         message = self.message(arguments)
@@ -235,7 +235,7 @@ def publish(
         publisher: Does it.
         arguments: The values of one message.
         source: Values of several messages instead; None to publish the one.
-        hertz: How often.
+        hertz: Rate [Hz].
         once: One message only.
         latch: Keep the last for late subscribers.
         fresh: Let ``now`` and ``auto`` mean the time of each message.

@@ -38,7 +38,7 @@ class RateMeter:
     """Measures the time between events.
 
     Args:
-        window: How many events count, the last ones; below 0 for nearly all.
+        window: Number of latest events; below 0 for nearly all.
     """
 
     def __init__(self, window: int = -1) -> None:
@@ -89,8 +89,8 @@ def measure_rates(
         topics: Their names.
         out: Gets the text.
         stop: Ends it.
-        window: How many messages count.
-        keep: Which messages count.
+        window: Number of messages.
+        keep: Condition of the counted messages; all if None.
         wall_time: Measure wall time even where time is simulated.
         tcp_nodelay: Request it.
     """
@@ -160,7 +160,7 @@ class SizeMeter:
     """Measures bytes per second.
 
     Args:
-        window: How many messages count.
+        window: Number of messages.
     """
 
     def __init__(self, window: int = 100) -> None:

@@ -115,7 +115,7 @@ def scale_matrix(
 
     Args:
         factor: By how much; -1 mirrors at a point.
-        origin: What stays where it is; by default the origin.
+        origin: Fixed point; by default the origin.
         direction: Scale along it only.
     """
     result = np.identity(4)

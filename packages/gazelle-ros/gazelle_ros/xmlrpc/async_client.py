@@ -29,7 +29,7 @@ class AsyncClient:
     Args:
         loop: Where it lives.
         timeout: Seconds to wait for an answer.
-        limits: What servers may demand.
+        limits: Limits for servers.
         lost: Called with a server's URI when it closes a connection that was idle.
     """
 

@@ -48,7 +48,7 @@ class XmlRpcServer:
         host: The name peers use; it decides the interface.
         port: 0 for any free one.
         dispatch: Returns the value of the answer; what it raises becomes a fault.
-        limits: What peers may demand.
+        limits: Limits for peers.
         prepare: Used instead of `dispatch`, where checking arguments may take long: it does
             that on any thread, and only what it returns runs on the loop's thread.
 

@@ -74,7 +74,7 @@ def fill_compressed(
         message: To fill.
         pixels: Grey (height, width), or red, green and blue (height, width, 3).
         encoding: Of the image before its compression.
-        settings: How to compress.
+        settings: Compression settings.
 
     Raises:
         RosError: Pillow is not installed.

@@ -53,7 +53,7 @@ class ImageConversion(CallbackWork):
         exact: Whether times are the very same; else they are close.
 
     Attributes:
-        outputs: What is published.
+        outputs: Published outputs.
     """
 
     def __init__(

@@ -44,7 +44,7 @@ class LinuxJoystick:
         path: Its device, such as ``/dev/input/js0``.
 
     Attributes:
-        name: What it calls itself.
+        name: Name of the program.
 
     Raises:
         OSError: It is not there, or may not be read.

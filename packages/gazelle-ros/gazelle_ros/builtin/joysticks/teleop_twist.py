@@ -23,7 +23,7 @@ class AxisScales:
 
     Attributes:
         axes: Numbers of axes.
-        normal: What they are multiplied by.
+        normal: Scale without the turbo button.
         turbo: The same with the turbo button.
     """
 

@@ -29,7 +29,7 @@ class DepthScanSettings:
 
     Attributes:
         scan_height: Rows of the image around the optical centre.
-        scan_time: What the scan says [s].
+        scan_time: Duration of the scan by its message [s].
         range_min: Nearer points are left out [m].
         range_max: Farther points are left out [m].
         output_frame_id: Frame of the scan: that of the camera with x forwards and z up.

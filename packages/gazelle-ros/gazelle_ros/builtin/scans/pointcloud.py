@@ -40,7 +40,7 @@ class CloudScanSettings:
         angle_min: Of the first beam [rad].
         angle_max: Of the last beam [rad].
         angle_increment: Between beams [rad].
-        scan_time: What the scan says [s].
+        scan_time: Duration of the scan by its message [s].
         range_min: Nearer points are left out [m].
         range_max: Farther points are left out [m].
         inf_epsilon: Added to the range of a beam without a point [m], without ``use_inf``.

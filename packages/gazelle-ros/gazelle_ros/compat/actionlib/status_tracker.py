@@ -15,8 +15,8 @@ class StatusTracker:
     """Status of a goal.
 
     Args:
-        goal_id: Which goal it is; with `status`.
-        status: How it stands, a constant of ``GoalStatus``.
+        goal_id: Goal's id; with `status`.
+        status: Status, a constant of ``GoalStatus``.
         goal: The goal itself, instead of the other two; one without an id gets one.
     """
 

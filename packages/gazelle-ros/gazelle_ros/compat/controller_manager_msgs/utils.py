@@ -34,7 +34,7 @@ def get_controller_managers(
 
     Args:
         namespace: Look below this one.
-        initial_guess: What was found before. Of these only one service is looked at, which saves
+        initial_guess: Topics found before. Of these only one service is looked at, which saves
             questions to the master.
     """
     there = _candidates(namespace)

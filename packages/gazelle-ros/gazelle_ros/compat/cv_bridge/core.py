@@ -55,7 +55,7 @@ class CvBridge:
 
         Args:
             img_msg: The message.
-            desired_encoding: What the array shall hold, such as ``bgr8``.
+            desired_encoding: Encoding of the array, such as ``bgr8``.
 
         Raises:
             CvBridgeError: There is no such conversion, or it needs OpenCV, which is not installed.
@@ -73,7 +73,7 @@ class CvBridge:
 
         Args:
             cvim: The array.
-            encoding: What it holds; by default the plain encoding of its type.
+            encoding: Encoding; by default the plain encoding of its type.
             header: The message's header.
 
         Raises:

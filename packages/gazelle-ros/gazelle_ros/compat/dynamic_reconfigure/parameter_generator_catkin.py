@@ -147,11 +147,11 @@ class Group:
             name: Its name.
             paramtype: ``int_t``, ``double_t``, ``str_t`` or ``bool_t``.
             level: Bits for the callback when it is changed.
-            description: What it is.
+            description: Description.
             default: Its value by default.
             min: The least value of a number.
             max: The greatest value of a number.
-            edit_method: What `ParameterGenerator.enum` returned.
+            edit_method: Result of `ParameterGenerator.enum`.
 
         Raises:
             DynamicReconfigureParameterException: The name is not legal, or limits make no sense.

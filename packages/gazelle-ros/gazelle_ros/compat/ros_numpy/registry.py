@@ -60,7 +60,7 @@ def msgify(msg_type: Any, numpy_obj: Any, *args: Any, **kwargs: Any) -> Any:
     Args:
         msg_type: Its class, or a list with the class for a list of messages.
         numpy_obj: The array.
-        args: What the type's function takes, such as an image's ``encoding``.
+        args: Arguments of the type's function, such as an image's ``encoding``.
         kwargs: The same by name.
 
     Raises:

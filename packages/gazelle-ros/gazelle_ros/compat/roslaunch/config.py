@@ -16,7 +16,7 @@ class ROSLaunchConfig:
     """Nodes, parameters and machines.
 
     Attributes:
-        nodes: What `add_node` took.
+        nodes: Result of `add_node`.
         params: Parameters by name.
     """
 

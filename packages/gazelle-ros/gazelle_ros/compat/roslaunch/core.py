@@ -68,7 +68,7 @@ class Machine:
     """A machine nodes run on.
 
     Args:
-        name: What launch files call it.
+        name: Name in launch files.
         address: Its address.
         rest: Accepted, and not needed: nodes run on this machine.
     """
@@ -142,7 +142,7 @@ class Node:
         env_args: Pairs of variables and values.
         output: ``screen`` or ``log``.
         cwd: ``ROS_HOME`` or ``node``.
-        launch_prefix: What comes before the program on its command line.
+        launch_prefix: Prefix of the command line.
         required: End the launch when it ends.
         filename: The launch file it is from.
 
@@ -201,7 +201,7 @@ class Test(Node):
     """A test node to run.
 
     Args:
-        test_name: What the test is called.
+        test_name: Name of the test.
         package: Its package.
         node_type: Its program.
         name: The node's name; by default the test's.
@@ -212,8 +212,8 @@ class Test(Node):
         env_args: Pairs of variables and values.
         time_limit: Seconds it may take.
         cwd: ``ROS_HOME`` or ``node``.
-        launch_prefix: What comes before the program on its command line.
-        retry: How often it is tried again when it fails.
+        launch_prefix: Prefix of the command line.
+        retry: Number of retries after a failure.
         filename: The launch file it is from.
 
     Raises:

@@ -166,7 +166,7 @@ class Runner:
     """Watches a launch with a thread.
 
     Args:
-        launch: What to watch.
+        launch: Launch to watch.
         listeners: Called at the end of nodes.
     """
 

@@ -100,7 +100,7 @@ def init_node(
     Raises:
         ValueError: The name is empty or has a namespace.
         ROSException: The node was begun before, with other arguments.
-        ROSInitException: What is there is no master.
+        ROSInitException: There is no master.
     """
     global _begun  # noqa: PLW0603  # there is one node a process
     del xmlrpc_port, tcpros_port

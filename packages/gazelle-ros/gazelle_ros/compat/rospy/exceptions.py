@@ -27,7 +27,7 @@ class ROSTimeMovedBackwardsException(ROSInterruptException):
     """Simulated time jumped back while something slept.
 
     Args:
-        time: How far [s], negative.
+        time: Distance into the past [s], negative.
     """
 
     def __init__(self, time: float) -> None:

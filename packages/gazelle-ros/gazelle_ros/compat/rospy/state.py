@@ -27,7 +27,7 @@ class NodeProcessState:
 
     Attributes:
         node: The node; None before `init_node`.
-        own_clock: What time it is without a node; None if that is not known.
+        own_clock: Source of the time without a node; None if that is not known.
         shutdown: Set as soon as the node is to end.
         ready: Set while the node runs.
     """

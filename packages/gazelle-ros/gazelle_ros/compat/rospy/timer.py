@@ -106,7 +106,7 @@ class TimerEvent:
         last_real: When it began.
         current_expected: When this one should have begun.
         current_real: When it began.
-        last_duration: How long the one before took [s of wall time].
+        last_duration: Duration of the one before [s of wall time].
     """
 
     last_expected: values.Time | None

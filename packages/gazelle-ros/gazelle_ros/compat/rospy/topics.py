@@ -100,7 +100,7 @@ class SubscribeListener:
 
         Args:
             topic_name: The topic's resolved name.
-            num_peers: How many are left.
+            num_peers: Number of remaining peers.
         """
 
 

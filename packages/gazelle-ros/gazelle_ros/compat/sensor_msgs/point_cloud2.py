@@ -41,7 +41,7 @@ def read_points(
 
     Args:
         cloud: The ``PointCloud2``.
-        field_names: Which fields, by default all.
+        field_names: Fields, by default all.
         skip_nans: Leave out points with a value that is not a number.
         uvs: Only the points in these columns and rows (column first).
 

@@ -49,7 +49,7 @@ class Transformer:
 
     Args:
         interpolate: Accepted; times between two are always interpolated.
-        cache_time: How long transforms are kept, 10 s by default.
+        cache_time: Time to keep transforms, 10 s by default.
     """
 
     def __init__(self, interpolate: bool = True, cache_time: Any = None) -> None:
@@ -228,8 +228,8 @@ class Transformer:
         """Return linear and angular velocity of a frame, relative to another.
 
         Args:
-            tracking_frame: What moves.
-            observation_frame: What it moves against.
+            tracking_frame: Moving frame.
+            observation_frame: Reference frame.
             reference_frame: Whose axes the result has.
             ref_point: Where on the moving frame the velocity is taken.
             reference_point_frame: The frame of `ref_point`.

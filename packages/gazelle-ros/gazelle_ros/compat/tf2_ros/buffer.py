@@ -26,7 +26,7 @@ class Buffer(BufferCore, BufferInterface):
     """Frames over time, filled by a `TransformListener`.
 
     Args:
-        cache_time: How long transforms are kept, 10 s by default.
+        cache_time: Time to keep transforms, 10 s by default.
         debug: Offer the service ``~tf2_frames``.
     """
 
@@ -58,7 +58,7 @@ class Buffer(BufferCore, BufferInterface):
             target_frame: Where values are wanted.
             source_frame: Where they are.
             time: When, 0 for the latest.
-            timeout: How long to wait for it, in the time of the node.
+            timeout: Longest wait, in the time of the node.
 
         Raises:
             TransformException: There is none; its class says why.

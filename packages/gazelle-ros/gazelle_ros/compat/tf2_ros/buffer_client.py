@@ -36,7 +36,7 @@ class BufferClient(BufferInterface):
     Args:
         ns: Of the server's action.
         check_frequency: Accepted, and not needed.
-        timeout_padding: How much longer to wait than the server does.
+        timeout_padding: Time to wait beyond the server's time-out.
     """
 
     def __init__(

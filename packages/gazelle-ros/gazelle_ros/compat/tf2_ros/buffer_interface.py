@@ -139,7 +139,7 @@ class BufferInterface:
         Args:
             object_stamped: With ``header.frame_id`` and ``header.stamp``.
             target_frame: The frame.
-            timeout: How long to wait for the transform.
+            timeout: Longest wait for the transform.
             new_type: Convert the result to this type.
 
         Raises:

@@ -24,7 +24,7 @@ class BufferServer:
         buffer: Where transforms are looked up.
         ns: Of the action.
         auto_start: Start at once.
-        check_period: How often goals that wait are tried again [s].
+        check_period: Period of the checks of waiting goals [s].
     """
 
     def __init__(

@@ -56,10 +56,10 @@ class MenuHandler:
         """Add an entry; returns its handle, or None if there is no such parent.
 
         Args:
-            title: What it is called.
+            title: Title.
             parent: Handle of the entry that it is below.
             command_type: Of MenuEntry.
-            command: What a viewer runs, by the type.
+            command: Command of a viewer, by the type.
             callback: Called with the feedback when it is chosen.
         """
         siblings = self._top

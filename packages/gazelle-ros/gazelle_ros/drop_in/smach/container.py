@@ -26,7 +26,7 @@ class Container(State):
     """State with states in it, which are added while it is open (``with container:``).
 
     Attributes:
-        userdata: What its states share.
+        userdata: Userdata of its states.
     """
 
     _opened: ClassVar[list[Container]] = []

@@ -10,7 +10,7 @@ class State:
     """One state; subclasses define ``execute``.
 
     Args:
-        outcomes: What ``execute`` may return.
+        outcomes: Outcomes of ``execute``.
         input_keys: Userdata that it reads.
         output_keys: Userdata that it writes.
         io_keys: Userdata that it reads and writes.
@@ -88,7 +88,7 @@ class CBInterface:
 
     Args:
         cb: The function.
-        outcomes: What it may return.
+        outcomes: Outcomes.
         input_keys: Userdata that it reads.
         output_keys: Userdata that it writes.
         io_keys: Userdata that it reads and writes.

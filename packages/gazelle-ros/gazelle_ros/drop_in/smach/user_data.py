@@ -64,8 +64,8 @@ class Remapper(ItemsAsAttributes):
 
     Args:
         ud: The container's.
-        input_keys: What may be read.
-        output_keys: What may be written.
+        input_keys: Keys that may be read.
+        output_keys: Keys that may be written.
         remapping: From a name of the state to one of the container.
     """
 

@@ -106,7 +106,7 @@ class IntrospectionServer:
     Args:
         server_name: Its topics are below this.
         state: The outermost container.
-        path: What that is called, such as ``/SM_ROOT``.
+        path: Path, such as ``/SM_ROOT``.
     """
 
     def __init__(self, server_name: str, state: Container, path: str) -> None:
