@@ -21,6 +21,7 @@ from gazelle.viewer.page.entity_tree import EntityTree
 from gazelle.viewer.page.frustum_layer import FrustumLayer
 from gazelle.viewer.page.goal_layer import GoalLayer, GoalPlaces
 from gazelle.viewer.page.grid_layer import GridLayer
+from gazelle.viewer.page.insertion import InsertTools
 from gazelle.viewer.page.joint_axis_layer import JointAxisLayer
 from gazelle.viewer.page.joint_sliders import JointSliders
 from gazelle.viewer.page.mass_layers import MassLayer
@@ -143,7 +144,11 @@ class LiveView(Closeable):
             shapes = ShapeLayer(context, "shapes", on_batch=tools.watch)
             steering: list[PageLayer] = []
             if not only_looking:
-                steering = [DriveControls(context, self._server), JointSliders(context)]
+                steering = [
+                    InsertTools(context, self._server),
+                    DriveControls(context, self._server),
+                    JointSliders(context),
+                ]
             left = page.gui.add_panel()
             with left.add_tab("World"):
                 tree, properties = EntityTree(context, self._server), PropertyPanel(context)

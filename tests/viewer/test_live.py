@@ -82,6 +82,11 @@ def pictures(view):
     view._picture()
 
 
+def layer(view, name):
+    """Return the part of the page of a class."""
+    return next(each for each in view._layers if type(each).__name__ == name)
+
+
 def shapes(view):
     """Return the batches of shapes, by how many instances they have."""
     (layer,) = (each for each in view._layers[1:2])
@@ -289,6 +294,7 @@ def test_models_are_pushed_lifted_deleted_and_spawned(room):
         assert room.robots["box"].pose.x > 0.1
         tools.do("delete")
         assert "box" not in room.robots
+        tools = layer(view, "InsertTools")
         tools._what.value = "turtlebot3_burger"
         tools._where.value = (0.0, 2.0, 1.57)
         for _ in range(2):
@@ -301,7 +307,7 @@ def test_what_goes_wrong_on_the_page_is_said_there_and_stops_nothing(room, monke
     with LiveView(room) as view:
         said = []
         monkeypatch.setattr(view._context, "notify", lambda *words: said.append(words))
-        tools = view._layers[2]
+        tools = layer(view, "InsertTools")
         tools._what.value = "file ..."
         tools._file.value = "/nowhere/robot.urdf"
         view._context.careful(tools.spawn)
@@ -348,7 +354,7 @@ def test_a_model_that_is_spawned_and_selected_on_the_page_has_its_sliders_once(r
             return made[-1]
 
         monkeypatch.setattr(sliders, "_slider", slow)
-        tools = view._layers[2]
+        tools = layer(view, "InsertTools")
         tools._what.value = "turtlebot3_burger"
         tools._where.value = (0.0, 2.0, 0.0)
         spawner = threading.Thread(target=tools.spawn)
@@ -377,7 +383,7 @@ def test_a_model_that_is_spawned_into_something_is_put_beside_it(monkeypatch):
     with Simulation("turtlebot3_world", threads=1) as sim, LiveView(sim) as view:
         said = []
         monkeypatch.setattr(view._context, "notify", lambda *words: said.append(words))
-        tools = view._layers[2]
+        tools = layer(view, "InsertTools")
         tools._what.value = "turtlebot3_burger"
         tools._where.value = (0.0, 0.0, 0.0)  # a pillar stands there
         tools.spawn()

@@ -1,24 +1,21 @@
-"""Tools for a model on the page: select, follow, drag, push, delete, spawn."""
+"""Tools for a model on the page: select, follow, drag, push, delete."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
-from gazelle import assets, formats
 from gazelle.array_types import Floats
-from gazelle.description import Pose
-from gazelle.simulation.free_place import spawn_where_free
+from gazelle.simulation.lights import delete_light
 from gazelle.viewer.page.context import ROOT, PageContext, ScenePart
+from gazelle.viewer.page.ghost_placing import on_level
 from gazelle.viewer.page.shapes import Instance
 
 NONE = "none"
 _PUSH = 0.2  # how long a push lasts [s]
 _LIFT = 0.5  # [m]
-_OWN = "file ..."
 
 
 class ModelTools:
@@ -52,18 +49,11 @@ class ModelTools:
             self._force = gui.add_vector3("Force [N]", (1.0, 0.0, 0.0), step=0.1)
             self._work = gui.add_button_group("Do", ("push", "lift", "delete"))
             gui.add_markdown("Click selects; drag with Shift moves, with Ctrl pulls by a spring.")
-        with gui.add_folder("Spawn", expand_by_default=False):
-            known = (*sorted(assets.robots()), *sorted(assets.models()))
-            self._what = gui.add_dropdown("What", (*known, _OWN))
-            self._file = gui.add_text("File", "", hint="a file or folder of this machine")
-            self._where = gui.add_vector3("x, y, yaw", (0.0, 0.0, 0.0), step=0.1)
-            self._spawn = gui.add_button("Spawn")
         self._gizmo = context.scene.add_transform_controls(
             f"{ROOT}/gizmo", scale=0.5, depth_test=False, visible=False
         )
         self._gizmo.on_update(self._moved)
         self._work.on_click(lambda event: careful(lambda: self.do(event.target.value)))
-        self._spawn.on_click(lambda _event: careful(self.spawn))
 
     def read(self) -> tuple[Floats, Floats] | None:
         """Return the selected model's position (3,) and quaternion (4,)."""
@@ -134,6 +124,10 @@ class ModelTools:
     def do(self, work: str) -> None:
         """Apply ``push``, ``lift`` or ``delete`` to the selected model."""
         context = self._context
+        if work == "delete" and context.part.kind == "light":
+            delete_light(context.simulation, context.part.name)
+            context.select("")
+            return
         if not context.selected:
             context.notify("No model is selected", "Click one, or choose it by name.")
             return
@@ -147,21 +141,6 @@ class ModelTools:
         else:
             link = next(iter(robot.links.values()))
             link.apply_wrench(self._force.value, duration=_PUSH, worlds=context.chosen)
-
-    def spawn(self) -> None:
-        """Spawn the chosen model at the requested place, or at the nearest free one."""
-        context, simulation = self._context, self._context.simulation
-        what = self._what.value
-        model = formats.load_model(self._file.value.strip() if what == _OWN else what)
-        x, y, yaw = self._where.value
-        put = spawn_where_free(simulation, model, Pose(x, y, yaw=yaw))
-        name = put.robot.name
-        if put.stuck:
-            context.notify("There is no free place", f"{name} is stuck in something.")
-        elif put.moved_to is not None:
-            there = "{:g}, {:g}".format(*put.moved_to)
-            context.notify("Something stands there", f"{name} was put at {there}.")
-        context.select(name, context.world)
 
 
 class _Drag:
@@ -199,22 +178,13 @@ class _Drag:
             context.simulation.lock.post(lambda: self._remember(model, world))
         if event.phase == "update":
             eye = np.asarray(event.client.camera.position, np.float64)
-            step = _on_level(eye, np.asarray(event.end_position), self._grabbed[2]) - self._grabbed
+            step = on_level(eye, np.asarray(event.end_position), self._grabbed[2]) - self._grabbed
             if np.isfinite(step).all():
                 _place(context, model, lambda: self._begin + step, lambda: self._turned, world)
 
     def _remember(self, model: str, world: Any) -> None:
         place = self._context.simulation.robots[model].placement(world)
         self._begin, self._turned = place.position[0], place.quaternion[0]
-
-
-def _on_level(eye: Floats, through: Floats, height: float) -> Floats:
-    """Intersect a ray from the eye through a point with a height [m]: shape (3,); NaN for none."""
-    along = through - eye
-    if abs(along[2]) < 1e-6 or (share := (height - eye[2]) / along[2]) <= 0.0:
-        return np.full(3, math.nan)
-    found: Floats = eye + share * along
-    return found
 
 
 def _place(context: PageContext, model: str, at: Any, turned: Any, world: Any) -> None:

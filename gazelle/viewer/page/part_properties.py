@@ -10,7 +10,7 @@ from typing import Any
 
 from gazelle.array_types import Floats
 from gazelle.description import Geometry, Joint, Light, Link, Model, Pose, Sensor
-from gazelle.errors import Error
+from gazelle.errors import Error, SimulationError, did_you_mean
 from gazelle.sensors import LidarModel
 from gazelle.simulation import Robot
 from gazelle.viewer.page.context import PageContext, ScenePart
@@ -214,7 +214,10 @@ def _of_light(context: PageContext, name: str) -> Iterator[PartProperty]:
     simulation = context.simulation
 
     def now() -> Light:
-        return next(each for each in simulation.world.lights if each.name == name)
+        lights = {each.name: each for each in simulation.world.lights}
+        if name not in lights:
+            raise SimulationError(f"there is no light '{name}'", hint=did_you_mean(name, lights))
+        return lights[name]
 
     def put(field: str, value: Any) -> None:
         simulation.set_light(name, **{field: value})

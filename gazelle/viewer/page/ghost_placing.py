@@ -1,0 +1,138 @@
+"""A ghost of a thing under the cursor of a page, until it is put down."""
+
+from __future__ import annotations
+
+import math
+import threading
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from gazelle.array_types import Floats
+from gazelle.builders import sphere
+from gazelle.description import Light, Model, Pose, World
+from gazelle.rotations import rotate
+from gazelle.viewer.page.context import ROOT, PageContext
+from gazelle.viewer.page.server import PageServer
+from gazelle.viewer.page.shapes import ShapeBatches
+
+_OPACITY = 0.45
+_LAMP = 0.1  # radius of the ghost of a light [m]
+
+_CURSOR = """
+<img alt="" style="display:none" src="data:," onerror="window.gazelleGhost?.abort();
+ const a=window.gazelleGhost=new AbortController(),c=document.querySelector('canvas[data-engine]'),s={{signal:a.signal}};
+ let busy=false,last=null,down=null;
+ const send=(e,more)=>{{const b=c.getBoundingClientRect();return fetch('ghost?client={client}&x='
+  +(e.clientX-b.left)/b.width+'&y='+(e.clientY-b.top)/b.height+more).catch(()=>0)}};
+ const pump=async()=>{{if(busy)return;busy=true;while(last&&!a.signal.aborted){{const e=last;last=null;await send(e,'')}}
+  busy=false}};
+ c.addEventListener('pointermove',e=>{{last=e;pump()}},s);
+ c.addEventListener('pointerdown',e=>{{down=[e.clientX,e.clientY]}},s);
+ c.addEventListener('pointerup',e=>{{if(!down||Math.hypot(e.clientX-down[0],e.clientY-down[1])>4)return;
+  a.abort();send(e,'&end=put')}},s);
+ document.addEventListener('keydown',e=>{{if(e.key=='Escape'){{a.abort();
+  fetch('ghost?client={client}&end=cancel').catch(()=>0)}}}},s)">
+"""
+
+
+@dataclass(frozen=True, slots=True)
+class _Carried:
+    """A thing on its way.
+
+    Attributes:
+        client: Page whose cursor has it.
+        script: Follows the cursor there.
+        frame: Moves the ghost.
+        yaw: Heading [rad].
+        put: Called with the pose.
+    """
+
+    client: Any
+    script: Any
+    frame: Any
+    yaw: float
+    put: Callable[[Pose], None]
+
+
+class GhostPlacing:
+    """Shows a ghost on the ground below the cursor; a click puts the thing there, Escape does not.
+
+    Args:
+        context: Of the page.
+        server: Gets the cursor.
+    """
+
+    def __init__(self, context: PageContext, server: PageServer) -> None:
+        self._context = context
+        self._carried: _Carried | None = None
+        server.handlers["ghost"] = self._moved
+
+    def begin(
+        self, client: Any, thing: Model | Light, yaw: float, put: Callable[[Pose], None]
+    ) -> None:
+        """Show a ghost at the cursor of a client; another one is given up."""
+        self.end()
+        context = self._context
+        model = sphere(radius=_LAMP) if isinstance(thing, Light) else replace(thing, pose=Pose())
+        frame = context.scene.add_frame(f"{ROOT}/ghost", show_axes=False, visible=False)
+        batches = ShapeBatches(
+            context.scene,
+            f"{ROOT}/ghost/shapes",
+            World(models=(model,)),
+            np.zeros((1, 3)),
+            opacity=_OPACITY,
+        )
+        at, turned = batches.rest
+        batches.show(at[None], turned[None])
+        frame.wxyz = (math.cos(yaw / 2.0), 0.0, 0.0, math.sin(yaw / 2.0))
+        script = client.gui.add_html(_CURSOR.format(client=client.client_id))
+        self._carried = _Carried(client, script, frame, yaw, put)
+
+    def end(self) -> None:
+        """Show no ghost any more."""
+        carried, self._carried = self._carried, None
+        if carried is not None:
+            carried.script.remove()
+            carried.frame.remove()  # and what hangs on it
+
+    def _moved(self, query: Mapping[str, str]) -> None:
+        """Follow the cursor, or end; on the server's thread."""
+        carried = self._carried
+        if carried is None or query.get("client") != str(carried.client.client_id):
+            return
+        try:
+            x, y = float(query.get("x", "nan")), float(query.get("y", "nan"))
+        except ValueError:
+            return
+        place = self._below(carried.client.camera, x, y)
+        seen = bool(np.isfinite(place).all())
+        if "end" in query:
+            self.end()
+            if seen:
+                x, y, z = (place - self._context.spot).tolist()
+                pose = Pose(x, y, z, yaw=carried.yaw)
+                threading.Thread(
+                    target=lambda: self._context.careful(lambda: carried.put(pose)), daemon=True
+                ).start()
+        elif seen:
+            carried.frame.position, carried.frame.visible = place, True
+
+    def _below(self, camera: Any, x: float, y: float) -> Floats:
+        """Return where the ground is at a point of the picture [m], shape (3,); NaN for nowhere."""
+        high = math.tan(camera.fov / 2.0)
+        ray = np.array([(2.0 * x - 1.0) * high * camera.aspect, (2.0 * y - 1.0) * high, 1.0])
+        along = rotate(np.asarray(camera.wxyz)[[1, 2, 3, 0]], ray)
+        eye = np.asarray(camera.position) + self._context.heading * [1.0, 1.0, 0.0]
+        return on_level(eye, eye + along, 0.0)
+
+
+def on_level(eye: Floats, through: Floats, height: float) -> Floats:
+    """Intersect a ray from the eye through a point with a height [m]: shape (3,); NaN for none."""
+    along = through - eye
+    if abs(along[2]) < 1e-6 or (share := (height - eye[2]) / along[2]) <= 0.0:
+        return np.full(3, math.nan)
+    found: Floats = eye + share * along
+    return found
