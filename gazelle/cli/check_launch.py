@@ -13,6 +13,8 @@ if TYPE_CHECKING:
     from gazelle_ros.launch.packages import Packages
     from gazelle_ros.launch.plan import NodePlan
 
+_BUILT_IN = "built in"
+
 
 def is_launch(file: str) -> bool:
     """Return whether a file is a launch file, by its name."""
@@ -32,10 +34,12 @@ def check_launch(
         engine: Builds its worlds and robots; None reads them only.
 
     Returns:
-        A line for each program, and the problems: an error for each node without one, a warning
-        for each that is left out on purpose, and those of the worlds and robots.
+        A line for each program and each planner of ``move_base``, and the problems: an error for
+        each node without one, a warning for each that is left out on purpose, and those of the
+        parameters of ``move_base``, the worlds and the robots.
     """
     from gazelle.cli.launched_files import LaunchedFiles
+    from gazelle.cli.launched_plugins import check_move_base
     from gazelle_ros.launch import Packages, load_launch
 
     packages = Packages()
@@ -43,17 +47,20 @@ def check_launch(
         plan = load_launch(file, arguments, packages=packages)
     except Error as error:
         return [], [Problem.of(error)]
-    lines: list[str] = []
+    rows: list[tuple[str, str]] = []
     problems = [Problem("warning", notice) for notice in plan.notices]
-    nodes = [*plan.nodes, *plan.tests]
-    width = max((len(_label(each)) for each in nodes), default=0)
-    for node in nodes:
+    for node in (*plan.nodes, *plan.tests):
         state, problem = _look_for(node, packages)
-        lines.append(f"  {_label(node):<{width}}  {state}")
+        rows.append((_label(node), state))
         if problem is not None:
             problems.append(problem)
+        if state == _BUILT_IN and (node.package, node.type) == ("move_base", "move_base"):
+            plugins, found = check_move_base(node, plan)
+            rows += [(f"{_label(node)} {kind}", where) for kind, where in plugins]
+            problems += found
     problems += LaunchedFiles(plan, engine).check()
-    return list(dict.fromkeys(lines)), problems
+    width = max((len(label) for label, _ in rows), default=0)
+    return list(dict.fromkeys(f"  {label:<{width}}  {state}" for label, state in rows)), problems
 
 
 def _label(node: NodePlan) -> str:
@@ -78,4 +85,4 @@ def _look_for(node: NodePlan, packages: Packages) -> tuple[str, Problem | None]:
             node.place.file,
             node.place.line,
         )
-    return "built in" if program.folder is None else str(program.folder), None
+    return _BUILT_IN if program.folder is None else str(program.folder), None

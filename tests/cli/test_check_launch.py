@@ -98,6 +98,71 @@ def test_a_nodelet_is_looked_for_by_its_class(cli, tmp_path, command):
     assert "did you mean 'yocs_cmd_vel_mux/CmdVelMuxNodelet'?" in out
 
 
+MOVE_BASE = """<launch>
+  <node pkg="move_base" type="move_base" name="move_base" ns="robot">
+    <rosparam>{{global_costmap: {{robot_radius: 0.2, plugins: []}}, local_costmap: {{plugins: []}}}}</rosparam>
+    <param name="{name}" value="{value}"/>
+  </node>
+</launch>
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "row", "text"),
+    [
+        (
+            "base_global_planner",
+            "global_planner/GlobalPlaner",
+            ("global_planner/GlobalPlaner", "missing"),
+            ":4: there is no global planner of type 'global_planner/GlobalPlaner'\n  hint: did you mean",
+        ),
+        (
+            "base_local_planner",
+            "dwa_local_planner/DWAPlannerROS",
+            ("dwa_local_planner/DWAPlannerROS", "built in"),
+            ": ok",
+        ),
+        (
+            "base_local_planner",
+            "nowhere_to_be_found:Planner",
+            ("nowhere_to_be_found:Planner", "your own"),
+            ": ok",
+        ),
+        (
+            "controller_frequency",
+            "0.0",
+            ("navfn/NavfnROS", "built in"),
+            ":2: /robot/move_base: 'controller_frequency' must be greater than zero",
+        ),
+        (
+            "TrajectoryPlannerROS/sim_time",
+            "long",
+            ("base_local_planner/TrajectoryPlannerROS", "built in"),
+            ":2: /robot/move_base: the parameter 'sim_time' is a float, not 'long'",
+        ),
+    ],
+)
+def test_planners_and_parameters_of_move_base_are_checked(cli, tmp_path, name, value, row, text):
+    file = tmp_path / "move.launch"
+    file.write_text(MOVE_BASE.format(name=name, value=value))
+    _, out, _ = cli("check", str(file))
+    rows = [line.split(maxsplit=2) for line in out.splitlines() if line.startswith("  move_base")]
+    assert ["move_base/move_base", *row] in rows
+    assert f"{file}{text}" in out
+
+
+def test_warnings_of_costmaps_are_findings(cli, tmp_path):
+    file = tmp_path / "move.launch"
+    file.write_text(
+        '<launch><node pkg="move_base" type="move_base" name="m">'
+        '<param name="global_costmap/inflation_radius" value="0.3"/></node></launch>'
+    )
+    code, out, _ = cli("check", str(file))
+    assert code == 0
+    assert "warning: " in out
+    assert "/m: global_costmap: parameters of before Hydro" in out
+
+
 WORLD = """<sdf version="1.6"><world name="default">
   <include><uri>model://nowhere</uri></include>
   <plugin name="odd" filename="libno_such_plugin.so"/>
