@@ -83,7 +83,7 @@ def sun(
     Args:
         name: Of the light.
         elevation: Above the horizon [rad].
-        azimuth: Where it stands, counter-clockwise from x [rad].
+        azimuth: Direction of the sun, counter-clockwise from x [rad].
         brightness: Of its white light, 0 to 1.
 
     Raises:

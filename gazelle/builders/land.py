@@ -190,7 +190,7 @@ def hills(
         length: Along x [m].
         width: Along y [m].
         cell: Side of a facet [m].
-        height: That of the highest possible hill [m]; the lowest ground is at 0.
+        height: Height of the highest possible hill [m]; the lowest ground is at 0.
         spacing: Of hill tops, roughly [m].
         flat: Zones where the ground is at 0.
         blend: Over how many metres around those zones it rises to full height [m].

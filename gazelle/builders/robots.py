@@ -127,7 +127,7 @@ def add_joint_properties(
         stop_erp: Error reduction of its limits, 0 to 1.
         fudge_factor: Scale of the motor's force at a limit.
         spring_stiffness: [N/m or N m/rad].
-        spring_reference: Where the spring rests [m or rad].
+        spring_reference: Rest position of the spring [m or rad].
 
     Raises:
         BuildError: There is no such joint, or nothing is requested.

@@ -23,7 +23,7 @@ class Opening:
 
     Attributes:
         wall: Stretch of the line, counted from 0.
-        at: Where its middle is, from the start of that stretch [m].
+        at: Position of its middle from the start of that stretch [m].
         width: [m].
         bottom: Height of its lower edge [m]; 0 for a door.
         top: Height of its upper edge [m].

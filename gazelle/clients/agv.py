@@ -78,7 +78,7 @@ class AGVFleet(Closeable):
         """Wait until all robots have subscribed and their poses are known.
 
         Raises:
-            ClientError: That takes longer than ``timeout`` [s of wall time].
+            ClientError: It takes longer than ``timeout`` [s of wall time].
         """
         end = deadline_after(timeout)
         while not (self._source.known and all(p.num_connections for p in self._publishers)):
@@ -248,7 +248,7 @@ class AGV(Closeable):
         """Wait until the robot has subscribed and its pose is known.
 
         Raises:
-            ClientError: That takes longer than ``timeout`` [s of wall time].
+            ClientError: It takes longer than ``timeout`` [s of wall time].
         """
         self._fleet.wait(timeout)
         return self

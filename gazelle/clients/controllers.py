@@ -64,7 +64,7 @@ class Controllers(Closeable):
         """Wait until others, such as a launch file, have brought controllers into a state.
 
         Raises:
-            ClientError: That takes longer than ``timeout`` [s of wall time].
+            ClientError: It takes longer than ``timeout`` [s of wall time].
         """
         wanted = _several(names)
         deadline = deadline_after(timeout)

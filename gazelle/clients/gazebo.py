@@ -40,7 +40,7 @@ class Gazebo(PhysicsCalls, Closeable):
 
     Args:
         node: Calls; a node of its own is made if None.
-        namespace: Where the services are.
+        namespace: Namespace of the services.
         master_uri: For its own node; by default ``ROS_MASTER_URI``.
         timeout: For services to be there and for answers [s of wall time].
         retries: Number of retries of interrupted calls; steps and forces are never repeated,

@@ -61,7 +61,7 @@ class JointCommander(Closeable):
         """Wait until the controller has subscribed.
 
         Raises:
-            ClientError: That takes longer than ``timeout`` [s of wall time].
+            ClientError: It takes longer than ``timeout`` [s of wall time].
         """
         deadline = deadline_after(timeout)
         while not self._publisher.num_connections:

@@ -70,7 +70,7 @@ class Driver(Closeable):
         """Wait until the base has subscribed and its pose is known.
 
         Raises:
-            ClientError: That takes longer than ``timeout`` [s of wall time].
+            ClientError: It takes longer than ``timeout`` [s of wall time].
         """
         if not self._arrived.wait(timeout):
             raise ClientError(f"nothing comes on {self._pose_topic} within {timeout:g} s")

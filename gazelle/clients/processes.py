@@ -54,10 +54,10 @@ class Processes:
         """Start a node; returns its full name.
 
         Args:
-            package: Where it is.
+            package: Its package.
             program: Its name in the package.
             name: Of the node; the program's if None.
-            namespace: Where it stands.
+            namespace: Its namespace.
             arguments: Its command line.
             parameters: Private ones.
             remaps: New names by old ones.

@@ -40,7 +40,7 @@ class TrajectoryProgress:
 
     Attributes:
         seconds: Since its start.
-        actual: Where each joint is [rad or m].
+        actual: Position of each joint [rad or m].
         error: Remaining distance [rad or m].
     """
 
@@ -128,7 +128,7 @@ class TrajectoryClient(Closeable):
     """Commands a ``JointTrajectoryController`` by its action.
 
     Args:
-        node: Whose client it is.
+        node: Node of the client.
         controller: Its name.
         namespace: Of the robot.
         timeout: For the controller to answer [s of wall time].
@@ -176,7 +176,7 @@ class TrajectoryClient(Closeable):
         """Follow waypoints, and wait for the end.
 
         Args:
-            joints: Whose positions the waypoints hold.
+            joints: Joints of the waypoints.
             waypoints: In the order of their times.
             timeout: As for ``move``.
             progress: Called with feedback.
@@ -209,7 +209,7 @@ class TrajectoryClient(Closeable):
         """Send waypoints and continue.
 
         Args:
-            joints: Whose positions the waypoints hold.
+            joints: Joints of the waypoints.
             waypoints: In the order of their times; none to hold still.
             progress: Called with feedback, by the subscriber's thread.
             path_tolerance: Largest error of joints along the path [rad or m]; negative for no bound.
@@ -237,7 +237,7 @@ class TrajectoryClient(Closeable):
         """Wait until the controller's action is there, in wall time.
 
         Raises:
-            ClientError: That takes too long.
+            ClientError: It takes too long.
         """
         deadline = deadline_after(self._timeout)
         while not self._client.connected:

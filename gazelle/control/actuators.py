@@ -158,7 +158,7 @@ class ActuatorHandles:
     Args:
         names: Of the actuators.
         states: Of all.
-        columns: Where these are among them.
+        columns: Their columns.
     """
 
     def __init__(

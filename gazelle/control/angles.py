@@ -29,8 +29,8 @@ def distance(start: Floats, end: Floats, continuous: Bools, lower: Floats, upper
     of more than a turn.
 
     Args:
-        start: Where they are [rad], shape (..., n).
-        end: Where they have to be [rad], likewise.
+        start: Start positions [rad], shape (..., n).
+        end: End positions [rad], likewise.
         continuous: Mask of joints without limits, shape (n,).
         lower: Limits [rad], shape (n,).
         upper: Limits [rad], shape (n,).

@@ -41,7 +41,7 @@ class _Entry:
     Attributes:
         name: Its name.
         values: Its parameters.
-        node: Where they are.
+        node: YAML node of the parameters.
         line: Of its name, from 1.
     """
 
@@ -87,7 +87,7 @@ class _Checker:
     """Loads controllers one by one.
 
     Args:
-        file: That they are in.
+        file: File of the parameters.
         model: Of the robot.
     """
 

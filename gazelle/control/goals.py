@@ -36,7 +36,7 @@ class Goal(Generic[G]):
     Args:
         value: Target.
         worlds: Where, shape (n,).
-        port: That it was given to.
+        port: Port of the goal.
 
     Attributes:
         value: Target.

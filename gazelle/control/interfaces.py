@@ -179,14 +179,14 @@ class JointHandles:
 
     Args:
         names: Of the joints.
-        states: That hold them.
+        states: Handles of the states.
         columns: Where.
         commands: By field, the array of all commands and the columns in it.
 
     Attributes:
         names: Of the joints.
         states: Arrays of all joints of the robot.
-        columns: Where these joints are in them, shape (joints,).
+        columns: Columns of these joints, shape (joints,).
         commands: As given.
     """
 

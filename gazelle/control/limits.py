@@ -65,7 +65,7 @@ class JointLimits:
 
         Args:
             parameters: The parameters.
-            place: Where they are, for messages.
+            place: Place of the parameters, for messages.
             soft: Whether soft limits are read, too; Gazebo's plugin does not.
 
         Raises:

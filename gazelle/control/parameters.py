@@ -20,7 +20,7 @@ class ControllerParameters(Mapping[str, Any]):
 
     Args:
         values: Nested mappings of plain values.
-        place: Where they are, for messages.
+        place: Place of the parameters, for messages.
     """
 
     def __init__(self, values: Mapping[str, Any], place: str) -> None:

@@ -61,7 +61,7 @@ def evaluate(polynomials: Floats, time: Floats, inside: Bools) -> tuple[Floats, 
     Args:
         polynomials: From ``coefficients``, powers first, shape (6, ...).
         time: Since their start, within their duration [s], shape (...).
-        inside: Where that is the requested time; elsewhere they stand still, shape (...).
+        inside: Mask of those at the requested time; elsewhere they stand still, shape (...).
     """
     c, t = polynomials, time
     position = c[0] + t * (c[1] + t * (c[2] + t * (c[3] + t * (c[4] + t * c[5]))))
@@ -76,8 +76,8 @@ def wrap_offset(before: Floats, after: Floats) -> Floats:
     At half a turn the way that the positions say is taken.
 
     Args:
-        before: Where they are [rad].
-        after: Where they have to be [rad].
+        before: Start positions [rad].
+        after: End positions [rad].
     """
     turn = np.mod(after - before + math.pi, 2.0 * math.pi) - math.pi
     half = np.abs(np.abs(turn) - math.pi) < 1e-9

@@ -47,7 +47,7 @@ class Switch:
         stop: Names of what was stopped.
         asap: Whether each is started as soon as its own joints have switched.
         timeout: Longest time [s]; 0 for no limit.
-        begun_ns: When it began [ns].
+        begun_ns: Time of its start [ns].
         waiting: Names of what is still to be started.
         failed: Names of controllers that were aborted, as the robot did not switch.
     """

@@ -23,7 +23,7 @@ class KnownController:
 
     Attributes:
         code: ``module:Class`` in this package.
-        interfaces: That the robot must have.
+        interfaces: Interfaces that the robot must have.
     """
 
     code: str

@@ -47,7 +47,7 @@ class TrajectorySample:
         position: [m or rad].
         velocity: [m/s or rad/s].
         acceleration: [m/s² or rad/s²].
-        end: When the segment ends [s].
+        end: End of the segment [s].
         last: Whether it is the last one.
         goal: Number of the goal that it belongs to; 0 for none.
     """
@@ -200,9 +200,9 @@ class TrajectoryTable:
         Joints that the points are not of continue as before.
 
         Args:
-            points: Where to go; all after now.
+            points: Points of the trajectory; all after now.
             now: Of the next update [s].
-            begin: When they begin [s].
+            begin: Start time [s].
             goal: Number of the goal that they are of; 0 for none.
             rows: Worlds, shape (n,).
         """

@@ -89,7 +89,7 @@ def waypoints(
     Args:
         trajectory: Checked.
         joints: From ``columns_of``.
-        begin: When it begins on the controller's clock [s].
+        begin: Start on the controller's clock [s].
         now: Of the next update [s].
         controller: Name of the controller, for messages.
 

@@ -73,7 +73,7 @@ class FourWheelCommand:
         front_angle: [rad].
         rear_angle: [rad].
         speed: [m/s].
-        stamp: When it was given [ns]; 0 for now.
+        stamp: Time of the command [ns]; 0 for now.
     """
 
     front_angle: float = 0.0

@@ -35,7 +35,7 @@ def wheel_radius(
     Args:
         model: The robot.
         joint: Of the wheel.
-        shapes: That a wheel may have: of ros_controllers only diff_drive_controller knows spheres.
+        shapes: Allowed shapes of a wheel: of ros_controllers only diff_drive_controller knows spheres.
 
     Raises:
         ControlError: There is no URDF, or no such joint in it, or the wheel is of another shape.

@@ -21,7 +21,7 @@ class Material:
         emissive: Colour it glows with; None when the file says none.
         script: Name of a material script such as ``Gazebo/Grey``; readers
             put the colours of a known script into the fields above.
-        script_uris: Where the file says the script is; empty for Gazebo's own.
+        script_uris: Locations of the script in the file; empty for Gazebo's own.
         script_places: The files and folders behind ``script_uris`` that are there.
         texture: Image file of the diffuse texture, or None.
         extras: Elements without effect, kept as in the file: shaders, other maps, ...

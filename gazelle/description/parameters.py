@@ -35,7 +35,7 @@ class Parameters(HoldsMappings):
         text: The text before the first child, stripped.
         attributes: Attribute values by name.
         children: Child elements in file order.
-        source: Where the element stands.
+        source: Place of the element.
     """
 
     tag: str

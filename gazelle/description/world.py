@@ -62,7 +62,7 @@ class World:
         magnetic_field: [T].
         wind: Linear velocity of the air [m/s].
         atmosphere: Air.
-        spherical_coordinates: Where on Earth; None when the file does not say.
+        spherical_coordinates: Place on Earth; None when the file does not say.
         scene: Look.
         lights: In file order.
         frames: Explicit frames of the world.

@@ -30,7 +30,7 @@ class DictRows:
     Attributes:
         space: Of one observation.
         row_space: Of one row, a Box of float32.
-        slices: Where each part stands, by its key.
+        slices: Slice of each part, by its key.
     """
 
     def __init__(self, space: gym.spaces.Dict) -> None:

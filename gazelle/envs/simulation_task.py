@@ -50,7 +50,7 @@ class SimulationTask(BatchedTask):
     and pictures come with this class.
 
     Args:
-        simulation: Where it happens, as it is at the start of every episode.
+        simulation: Simulation, as at the start of every episode.
         control_period: Simulated time of a control step [s], a multiple of the physics step.
         max_episode_steps: Control steps until an episode is truncated; None for no limit.
 
@@ -58,7 +58,7 @@ class SimulationTask(BatchedTask):
         TaskError: The control period is no multiple of the physics step.
 
     Attributes:
-        simulation: Where it happens.
+        simulation: Simulation.
         memory: Arrays that the task keeps between steps, by name; they are saved with it.
         view: From where pictures are taken.
     """

@@ -25,7 +25,7 @@ class RandomStarts:
     """Draws where episodes begin, one world knowing nothing of the others.
 
     Args:
-        places: Where the robot may start (x, y) [m], shape (n, 2).
+        places: Possible starts of the robot (x, y) [m], shape (n, 2).
         nworld: Number of worlds.
 
     Attributes:
@@ -63,7 +63,7 @@ class RandomStarts:
 
         Args:
             worlds: Worlds, shape (n,).
-            goals: Where the robots will have to go (x, y) [m], shape (n, 2).
+            goals: Goals of the robots (x, y) [m], shape (n, 2).
             nearest: The shortest range that a lidar has in some worlds now [m].
         """
         scripts = len(self._scripts)

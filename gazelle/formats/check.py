@@ -33,7 +33,7 @@ class Problem:
         line: Line in that file, counted from 1.
         element: Path of the element.
         hint: Fix.
-        why: Why it matters; None where that is plain.
+        why: Reason; None where that is plain.
         rule: Short name of the rule that found it; None for findings of the reader.
     """
 

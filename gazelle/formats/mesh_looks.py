@@ -23,7 +23,7 @@ class MeshLook:
         pixels: The picture, where it is inside the mesh file: bytes of shape (height, width, 3), top
             row first.
         alpha: 0 for what cannot be seen to 1.
-        uv: Where in the picture the corners of each triangle are, to the right and up, 0 to 1 and
+        uv: Texture coordinates of the corners of each triangle, to the right and up, 0 to 1 and
             again beyond, shape (m, 3, 2); None for nowhere.
     """
 

@@ -56,7 +56,7 @@ def scan(root: Path, listings: dict[Path, Listing]) -> Index:
     Links to folders are not followed, so that the search ends and stays below ``root``.
 
     Args:
-        root: Where the search begins.
+        root: Start of the search.
         listings: Known folders; new ones are added.
     """
     index = Index()

@@ -27,7 +27,7 @@ class Miss:
     Attributes:
         uri: As in the file.
         source: Its position in the file.
-        looked: Where it was looked for.
+        looked: Searched places.
     """
 
     uri: str

@@ -32,7 +32,7 @@ class Opened:
 
     Attributes:
         tag: Its tag.
-        line: Where it begins, from 1.
+        line: Its first line, from 1.
     """
 
     tag: str
@@ -45,7 +45,7 @@ def explained(code: int, data: bytes, at: int, opened: Sequence[Opened]) -> tupl
     Args:
         code: Expat's code.
         data: The text.
-        at: Where in it the fault is found [bytes].
+        at: Offset of the fault [bytes].
         opened: The elements that are open there, outermost first.
     """
     reason = expat.ErrorString(code)

@@ -65,7 +65,7 @@ class Polygons:
     triangle whose plane it has.
 
     Attributes:
-        surface: Whose triangles they are.
+        surface: Surface of the triangles.
         count: Number of polygons.
     """
 

@@ -20,7 +20,7 @@ class Planar:
 
     Attributes:
         points: Corners of one after the other [m], shape (n, 2).
-        rows: Whose each is, rising, shape (n,).
+        rows: Owner of each, rising, shape (n,).
         count: Largest number of polygons.
     """
 

@@ -26,7 +26,7 @@ class TriangleMesh:
         normals: Of the surface at the vertices, of unit length, shape (n, 3).
         faces: Corners of each triangle, counter-clockwise from outside, shape (m, 3).
         two_sided: Whether triangles are seen from behind too.
-        uv: Where in a picture the vertices are, to the right and up, shape (n, 2); None for nowhere.
+        uv: Texture coordinates of the vertices, to the right and up, shape (n, 2); None for none.
     """
 
     vertices: Floats

@@ -36,7 +36,7 @@ class IkSolutions:
 
     Attributes:
         positions: Of the group's joints [m or rad], NaN where none was found, shape (n, joints).
-        found: Where one was, shape (n,).
+        found: Mask of solved poses, shape (n,).
         attempts: Number of starts, shape (n,).
     """
 
@@ -54,8 +54,8 @@ class InverseKinematics:
 
     Args:
         robot: The robot.
-        group: Whose joints move.
-        link: That shall be there; the group's tip if None.
+        group: Group that moves.
+        link: Link to place; the group's tip if None.
         aim: ``pose``, or only its ``position`` or ``orientation``.
         tolerance: Of the distance [m] and the angle [rad].
         attempts: Largest number of starts.

@@ -31,9 +31,9 @@ class JointModelGroup:
         columns: Of the variables among the robot's, shape (n,).
         lower: Limits [m or rad], shape (n,).
         upper: Likewise.
-        links: That its joints hold, tips of chains among them, from the root outwards.
+        links: Links of its joints, tips of chains among them, from the root outwards.
         tips: Ends of its chains: the links that are moved to poses. One for an arm.
-        base: Where its one chain begins; empty where there is none or several.
+        base: Base of its one chain; empty where there is none or several.
         effectors: End effectors that are mounted on it.
         states: Named postures, values by name of variable.
 

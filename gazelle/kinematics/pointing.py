@@ -29,8 +29,8 @@ class Pointing:
 
     Args:
         robot: With the joints.
-        joints: That turn the link, the first nearest to the robot's root; two for a head.
-        link: That points.
+        joints: Joints that turn the link, the first nearest to the robot's root; two for a head.
+        link: Link that points.
         axis: Of the link, of any length.
 
     Attributes:
@@ -59,7 +59,7 @@ class Pointing:
 
         Args:
             place: In the frame of ``base`` [m], shape (3,).
-            start: Where the joints are, shape (joints,).
+            start: Positions of the joints, shape (joints,).
         """
         wanted = np.asarray(place, float)
         here = np.clip(np.asarray(start, float), self._low, self._high)

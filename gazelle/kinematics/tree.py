@@ -32,7 +32,7 @@ class TreeLink:
         parent: Scoped name of the parent body; None for the world.
         pose: In the parent body's frame, or in the world, with all joints at zero.
         joint: The joint to its parent, if any.
-        joint_name: That joint's scoped name.
+        joint_name: Scoped name of that joint.
         root: Motion of a body without a joint; None for one with a joint.
         self_collide: Whether it collides with bodies of its own model.
     """

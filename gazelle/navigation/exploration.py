@@ -54,7 +54,7 @@ class NextGoal:
     """Next goal of the exploration.
 
     Attributes:
-        place: Where to go (x, y) [m]; None if there is nothing left to explore.
+        place: Next place (x, y) [m]; None if there is nothing left to explore.
         fresh: Whether that is another place than before.
     """
 

@@ -91,7 +91,7 @@ class OccupancyGrid:
 
         Args:
             place: Of the scanner (x, y) [m].
-            ends: Where rays end [m], shape (n, 2).
+            ends: Ends of rays [m], shape (n, 2).
             seen: Mask of beams with a hit, shape (n,); the others are free up to the end.
         """
         start = np.asarray(place, np.float64)

@@ -99,8 +99,8 @@ class RefugeMap:
         """Return the place with the shortest path where a robot obstructs no other.
 
         Args:
-            robot: That has to yield.
-            leader: That it yields to, and cannot get past.
+            robot: Robot that yields.
+            leader: Robot that has priority.
             path: Of the leader, shape (n, 2) [m].
             bodies: Robots that stay where they are.
             taken: Places that others will stand at.

@@ -113,7 +113,7 @@ class _Waiting:
     Attributes:
         traveller: That.
         goal: Its own; with another one it is its own master again.
-        refuge: Where it steps aside to; None if it obstructs nothing.
+        refuge: Place to wait; None if it obstructs nothing.
         until: Distance that the other one has to advance on its path [m].
     """
 
@@ -133,7 +133,7 @@ class _Encounter:
         path: Its path, shape (n, 2) [m].
         along: Distance along it of each point, shape (n,) [m].
         waiting: The others.
-        begun: When the others began to yield [s].
+        begun: Start of the others' yielding [s].
         involved: Names of all robots still involved.
         under_way: Whether the leader has set off.
     """
@@ -152,7 +152,7 @@ class RightOfWay:
     """Sees that robots of one world do not wait for one another for ever.
 
     Attributes:
-        due: When all robots are to be looked at again [s].
+        due: Time of the next check of all robots [s].
     """
 
     def __init__(self) -> None:

@@ -24,7 +24,7 @@ def find_path(prices: Floats, start: Cell, goal: Cell) -> list[Cell] | None:
         prices: Of entering a cell, a length away: at least 1, and inf for what is closed;
             shape (columns, rows).
         start: Start of the path; it may be closed.
-        goal: Where it ends.
+        goal: Its end.
 
     Returns:
         Cells from ``start`` to ``goal``.

@@ -44,7 +44,7 @@ class WorldExploration:
             time: Now [s].
             pose: Of the robot on the map.
             grid: The map.
-            law: That gets the goals.
+            law: Law that gets the goals.
         """
         if time < self._due - 1e-6:
             return False

@@ -189,9 +189,9 @@ class WorldPilot:
             time: Now [s].
             true: True pose of the robot.
             odom: Pose by odometry.
-            speed: That it has.
+            speed: Its speed.
             scan: The last one.
-            stamp: When it was taken [ns].
+            stamp: Time of the scan [ns].
         """
         whole_pose, local_pose = self._place(time, true, odom, scan, fresh=stamp != self._seen)
         self._pose, self._local_pose = whole_pose, local_pose

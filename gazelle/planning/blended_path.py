@@ -22,7 +22,7 @@ class PathPieces:
     """Straight segments and arcs, one after another.
 
     Attributes:
-        begins: Where each begins along the path, and the end of the last, shape (k + 1,).
+        begins: Start of each along the path, and the end of the last, shape (k + 1,).
         radii: Of arcs; infinite for straight segments, shape (k,).
         origins: Start of a straight segment, centre of an arc, shape (k, n).
         first: Direction of a straight segment; from the centre to an arc's start, shape (k, n).

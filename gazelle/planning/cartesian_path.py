@@ -37,7 +37,7 @@ class CartesianPath:
     Attributes:
         points: Positions of the group's joints, shape (m, n).
         fraction: Of the path, 0 to 1.
-        reason: Why it ends before the end; empty if it does not.
+        reason: Reason of an early end; empty otherwise.
     """
 
     points: Floats
@@ -69,7 +69,7 @@ class CartesianPlanner:
         state: Of all variables, at the start, shape (variables,).
         max_step: Longest step [m].
         valid: Predicate of positions of the group, shape (n,).
-        reasons: Why positions are not valid.
+        reasons: Reasons why positions are not valid.
 
     Raises:
         PlanningError: The step is not above zero.
@@ -96,7 +96,7 @@ class CartesianPlanner:
 
         Args:
             poses: One after another.
-            jumps: Where to cut it off.
+            jumps: Largest jumps of joints, at which it is cut off.
 
         Raises:
             PlanningError: There are no poses, one is not finite, or the path is too long.

@@ -52,7 +52,7 @@ class Execution:
     """A trajectory that controllers follow.
 
     Args:
-        robot: That moves.
+        robot: Robot that moves.
         goals: By name of the controller.
         duration: Of the trajectory [s].
     """

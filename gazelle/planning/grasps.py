@@ -55,13 +55,13 @@ class Grasp:
     """A grasp of an object.
 
     Attributes:
-        pose: Where the link is when the gripper closes, in the robot's frame.
+        pose: Pose of the link when the gripper closes, in the robot's frame.
         approach: Approach.
-        retreat: Where it goes then.
+        retreat: Retreat.
         open: Positions of the gripper's joints before the grasp [m or rad]; as they are if empty.
         closed: Commanded positions that hold the object.
         effort: Largest one of the gripper [N or N m]; its controller's if zero.
-        link: That the pose is of; the group's tip if empty.
+        link: Link of the pose; the group's tip if empty.
         touches: Links and objects that the hand may touch beside the object.
         quality: Better ones are tried first.
         name: For people.
@@ -87,7 +87,7 @@ class PlaceLocation:
     Attributes:
         pose: Of the thing in the robot's frame.
         approach: Approach.
-        retreat: Where the hand goes then.
+        retreat: Retreat of the hand.
         open: Positions of the gripper's joints that release.
         of_tip: Whether the pose is of the group's tip instead.
         touches: Links and objects that the hand may touch beside the object.
@@ -118,7 +118,7 @@ class ParallelHand:
         closed: Closed.
         width: Opening [m].
         depth: Reach of the fingers beyond the link [m]: the deepest grasp over an object.
-        effort: That it grips with [N]; its controller's if zero.
+        effort: Effort of the grip [N]; its controller's if zero.
     """
 
     link: str
@@ -136,7 +136,7 @@ def box_grasps(
     """Return grasps of a box: from above and from its sides, with the fingers on two faces.
 
     Args:
-        hand: That takes it.
+        hand: Hand for the grasps.
         pose: Of the box in the robot's frame.
         size: Of the box [m].
         approach: Length of the straight approach [m].

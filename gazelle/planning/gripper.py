@@ -53,7 +53,7 @@ class RobotGripper:
 
     Attributes:
         name: Of the controller.
-        joints: That it moves.
+        joints: Joints that it moves.
 
     Raises:
         PlanningError: There is no such running controller, or there are several.

@@ -45,7 +45,7 @@ class GroupPlan:
     Attributes:
         plan: Plan.
         fraction: Completed part of the request: less than 1 only for straight paths.
-        reason: Why it ends before.
+        reason: Reason of an early end.
     """
 
     plan: MotionPlan
@@ -215,7 +215,7 @@ class Group:
         Args:
             goal: A pose of the tip in the frame of the robot's root link, the name of a state of the
                 group, positions by joint or of all joints, or constraints.
-            constraints: That hold all along.
+            constraints: Constraints along the path.
             link: Link of a pose; the tip if None.
 
         Raises:
@@ -242,9 +242,9 @@ class Group:
         Args:
             poses: One after another, in the frame of the robot's root link.
             max_step: Longest step [m].
-            jumps: Where to cut it off.
+            jumps: Largest jumps of joints, at which it is cut off.
             avoid_collisions: Whether it ends where it would collide.
-            constraints: That hold all along.
+            constraints: Constraints along the path.
 
         Raises:
             PlanningError: The step is not above zero, there are no poses, one is not finite, or
@@ -281,7 +281,7 @@ class Group:
             name: Of the thing, as ``scene`` has it.
             grasps: Of which one is taken, better ones first (``box_grasps``).
             effector: Name of the end effector in the SRDF; the group's one if empty.
-            gripper: That closes; the robot's one if None.
+            gripper: Gripper that closes; the robot's one if None.
             rules: Contact rules.
 
         Raises:

@@ -23,7 +23,7 @@ class ManipulationStage:
     Attributes:
         name: As in MoveIt: ``pre_grasp``, ``plan``, ``approach``, ``grasp``, ``release``, ``retreat``.
         motion: Of the arm.
-        posture: Where joints of the gripper go; empty if the arm moves.
+        posture: Posture of the gripper; empty if the arm moves.
         effort: Largest one of the gripper; its controller's if zero.
         then: Change of the scene after the stage.
     """
@@ -44,9 +44,9 @@ class ManipulationPlan:
         object: The thing.
         stages: One after another.
         choice: Index of the chosen grasp or place.
-        link: That holds the thing.
+        link: Link that holds the object.
         touch_links: Links that it may touch then.
-        seconds: That planning took, of the wall's clock.
+        seconds: Planning time [s of wall time].
     """
 
     object: str

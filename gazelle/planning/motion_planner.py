@@ -81,8 +81,8 @@ class MotionPlan:
         group: Group of the plan.
         start: Of all variables, where it begins, shape (variables,).
         points: Corners of the path, shape (m, n).
-        trajectory: When the group's joints are where.
-        seconds: That planning took, of the wall's clock.
+        trajectory: Trajectory of the group's joints.
+        seconds: Planning time [s of wall time].
     """
 
     group: JointModelGroup
@@ -144,7 +144,7 @@ class MotionPlanner:
                 by joint or of all joints, or constraints.
             start: Of all variables; the scene's state if None. Shape (variables,).
             link: Link of a pose; the group's tip if None.
-            constraints: That hold all along.
+            constraints: Constraints along the path.
 
         Raises:
             NoPlanError: There is none, and why.
@@ -186,9 +186,9 @@ class MotionPlanner:
             max_step: Longest step [m]; turns are in steps of 3.5 times as many radians.
             start: Of all variables; the scene's state if None. Shape (variables,).
             link: Link on a straight path; the group's tip if None.
-            jumps: Where to cut it off.
+            jumps: Largest jumps of joints, at which it is cut off.
             avoid_collisions: Whether it ends where it would collide.
-            constraints: That hold all along.
+            constraints: Constraints along the path.
 
         Returns:
             The trajectory of what can be done, its fraction of the path, and the reason.

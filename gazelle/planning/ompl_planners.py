@@ -42,7 +42,7 @@ def plan_with_ompl(
         validity: Check of states and motions.
         planner: A key of ``BOUND``.
         seed: The same one gives the same path, unless the planner continues until time is up.
-        until: When to give up, on ``time.monotonic``'s clock [s].
+        until: Deadline, on ``time.monotonic``'s clock [s].
         edge: Longest edge of a tree; as the planner likes if zero.
 
     Returns:

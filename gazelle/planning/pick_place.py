@@ -88,7 +88,7 @@ class PickPlacePlanner:
             grasps: Of which one is taken, better ones first.
             start: Of all variables; the scene's state if None. Shape (variables,).
             rules: Contact rules.
-            constraints: That hold until the approach.
+            constraints: Constraints until the approach.
 
         Raises:
             NoPlanError: No grasp can be done; the message has a reason for each kind.

@@ -79,7 +79,7 @@ def rrt_connect(
         goals: Valid positions, shape (k, n).
         validity: Check of states and motions.
         random: Draws positions.
-        until: When to give up, on ``time.monotonic``'s clock [s].
+        until: Deadline, on ``time.monotonic``'s clock [s].
         project: Projects positions onto the path constraints; None where there are none.
         edge: Longest edge of a tree; a fifth of the extent if zero.
 

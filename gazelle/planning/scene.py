@@ -35,7 +35,7 @@ class PlanningScene:
 
     Attributes:
         robot: The robot.
-        state: Where its joints are now, shape (variables,).
+        state: Current state of its joints, shape (variables,).
         objects: Objects around the robot, by name.
         attached: Objects held by links, by name.
 
@@ -128,7 +128,7 @@ class PlanningScene:
 
         Args:
             name: Of the object.
-            link: That holds it.
+            link: Link that holds it.
             touch_links: Links that it may touch, besides that one.
 
         Raises:

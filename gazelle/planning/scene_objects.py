@@ -54,7 +54,7 @@ class AttachedObject:
 
     Attributes:
         object: The thing; its pose is in the link's frame.
-        link: That holds it.
+        link: Link that holds it.
         touch_links: Links that it may touch, besides that one.
     """
 

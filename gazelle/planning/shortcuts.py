@@ -25,7 +25,7 @@ def shorten(
         points: Positions on a valid path, shape (m, n).
         validity: Check of states and motions.
         random: Draws places.
-        until: When to stop, on ``time.monotonic``'s clock [s].
+        until: Deadline, on ``time.monotonic``'s clock [s].
     """
     path = _without_detours(points, validity, until)
     failed = 0

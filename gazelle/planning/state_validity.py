@@ -26,12 +26,12 @@ class StateValidity:
         scene: Planning scene.
         group: Group of the positions.
         state: Of all variables, shape (variables,).
-        constraints: That hold in every state.
+        constraints: Constraints of every state.
         segment: Distance of the states that are checked along a motion, as a fraction of the extent.
         collisions: Whether what touches counts.
 
     Attributes:
-        resolution: That distance, as ``JointModelGroup.distance`` measures it.
+        resolution: Resolution, as ``JointModelGroup.distance`` measures it.
         checks: Number of checked states.
     """
 

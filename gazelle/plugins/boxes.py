@@ -101,7 +101,7 @@ class _Pad:
         automatic: Whether they go by themselves.
         least: Corner of the box that they are taken from [m].
         most: The other corner.
-        arrival: Where they are put that come from another pad.
+        arrival: Place of those that come from another pad.
     """
 
     destination: str

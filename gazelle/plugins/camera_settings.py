@@ -53,7 +53,7 @@ class CameraSettings:
         """Read the tags.
 
         Args:
-            sensor: That the plugin is on.
+            sensor: Sensor of the plugin.
             camera: Of the sensor.
             parameters: The tags.
             suffix: After the camera's name, of one of several; only the right one of a pair is

@@ -24,7 +24,7 @@ class CommandTables:
         angular: Commanded turning rates [rad/s], likewise.
         revision: Counts commands, shape (n,).
         seen: The last of them that was seen, likewise.
-        since_ns: When that was [ns], likewise.
+        since_ns: Time of that [ns], likewise.
     """
 
     linear: Floats

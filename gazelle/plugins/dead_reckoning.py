@@ -25,7 +25,7 @@ class ReckoningTables:
         pose: x, y [m] and heading [rad], shape (nworld, n, 3).
         twist: Forward velocity [m/s] and turning rate [rad/s], shape (nworld, n, 2).
         angles: Of the left and the right wheel when last looked at [rad], likewise.
-        last_ns: When that was [ns], shape (n,).
+        last_ns: Time of that [ns], shape (n,).
     """
 
     pose: Floats

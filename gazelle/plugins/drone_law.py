@@ -27,7 +27,7 @@ class DroneMoment:
     """Input of one step of the law.
 
     Attributes:
-        place: Where the drones are.
+        place: Positions of the drones.
         motion: Twists, in the world frame.
         acceleration: Change of the velocity since the last step [m/s²], shape (nworld, 3).
         moved: Change of the position since then [m], likewise.
@@ -66,7 +66,7 @@ class DroneLaw:
 
     Args:
         parameters: Tags of the plugin.
-        mass: That it takes the drone to have [kg], shape (nworld,).
+        mass: Assumed mass of the drone [kg], shape (nworld,).
         inertia: Likewise, about x, y and z [kg m²], shape (nworld, 3).
 
     Attributes:

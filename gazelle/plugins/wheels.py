@@ -53,7 +53,7 @@ class WheeledDrive(ModelPlugin):
             separation: Between the sides [m].
             diameter: Of the wheels [m].
             torque: Of each motor at most [N m].
-            source: Where the numbers stand.
+            source: Place of the numbers in the file.
 
         Raises:
             SimulationError: A joint is missing, or a length is not positive.

@@ -51,7 +51,7 @@ class Renderer:
     Args:
         world: World to draw.
         nworld: Number of copies.
-        threads: That draw at once; all processors if None.
+        threads: Number of threads; all processors if None.
         gamma: Brightness b becomes b to the power 1 / gamma.
         shadows: Whether things throw shadows in the first directional light that has them.
         seen: Visuals in place of the world's; its lamps and sky stay.
@@ -147,7 +147,7 @@ class Renderer:
             lens: Of all of them.
             positions: Of the cameras in their worlds [m], shape (n, 3).
             quaternions: x, y, z, w; a camera looks along its x axis, z is up, shape (n, 4).
-            worlds: That the cameras are in, shape (n,); the first n if None.
+            worlds: Worlds of the cameras, shape (n,); the first n if None.
             want: Images: color, depth and labels.
             unseen: Of each camera the link that it does not see, such as its own casing, counted as
                 in ``links``, or -1, shape (n,); none if None. Shadows of it stay.

@@ -41,7 +41,7 @@ class VisibleWorld:
         links: Names of the links, as poses are given for them.
         parts: Parts by which labels in images count.
         shapes: Shapes to draw.
-        rest: Where links are in the description, rotation by rows and place [m], shape (nlink, 12).
+        rest: Poses of links in the description, rotation by rows and place [m], shape (nlink, 12).
     """
 
     links: tuple[str, ...]

@@ -70,7 +70,7 @@ class WideView:
             scene: Draws.
             positions: Of the cameras [m], shape (n, 3).
             quaternions: x, y, z, w, shape (n, 4).
-            worlds: That they are in, shape (n,).
+            worlds: Their worlds, shape (n,).
         """
         count, faces = len(positions), len(self._turns)
         at = np.repeat(positions, faces, axis=0)

@@ -70,7 +70,7 @@ class TangentPlane:
     positions by half a turn more, a known fault of theirs that is not kept.
 
     Args:
-        origin: Where the world's origin is.
+        origin: Place of the world's origin.
     """
 
     def __init__(self, origin: SphericalCoordinates) -> None:

@@ -33,7 +33,7 @@ class Optics(Protocol):
             scene: Draws.
             positions: Of the cameras [m], shape (n, 3).
             quaternions: x, y, z, w, shape (n, 4).
-            worlds: That they are in, shape (n,); all if None.
+            worlds: Their worlds, shape (n,); all if None.
             depth: Whether depths are requested.
         """
 

@@ -29,11 +29,11 @@ class TimedWrench:
 
     Attributes:
         target: Scoped name of the link.
-        start_ns: When it begins.
-        end_ns: When it is over; None for never.
+        start_ns: Its start.
+        end_ns: Its end; None for never.
         force: In the axes of the frame [N].
         torque: In the axes of the frame [N m].
-        point: Where it acts, in the frame [m]; None for the centre of mass.
+        point: Point of action, in the frame [m]; None for the centre of mass.
         frame: Scoped name of the link in whose axes it is expressed; empty for the world.
         follow: Whether it turns with that link, or keeps the direction that it began with.
         held: Force and torque about the centre of mass in the world frame, once it has begun.

@@ -60,7 +60,7 @@ class Stopwatch:
         clock: Clock of the schedule; it is started at once.
 
     Attributes:
-        start_ns: When it was started [ns].
+        start_ns: Time of its start [ns].
     """
 
     def __init__(self, clock: Clock) -> None:

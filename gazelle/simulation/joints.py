@@ -89,7 +89,7 @@ class JointHandle:
 
         Args:
             effort: [N or N m], shape (), (n,) or (n, axes).
-            start: When it begins, in simulated time [s]; now if None or past.
+            start: Start in simulated time [s]; now if None or past.
             duration: Duration [s]; until cleared if None.
             worlds: Worlds; all if None.
 

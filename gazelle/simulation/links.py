@@ -125,12 +125,12 @@ class LinkHandle:
         Args:
             force: [N], shape (3,) or (n, 3).
             torque: [N m], shape (3,) or (n, 3).
-            point: Where the force acts [m], in ``frame``, shape (3,) or (n, 3); the link's
+            point: Point of the force [m], in ``frame``, shape (3,) or (n, 3); the link's
                 centre of mass if None.
             frame: Frame of force, torque and point; the world if None.
             follow: Whether the wrench turns with ``frame``; if not, it keeps the direction and
                 the lever that it has when it begins, as Gazebo's do.
-            start: When it begins, in simulated time [s]; now if None or past.
+            start: Start in simulated time [s]; now if None or past.
             duration: Duration [s]; until cleared if None.
             worlds: Worlds; all if None.
 

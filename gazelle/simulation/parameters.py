@@ -186,7 +186,7 @@ class WorldParameters:
         motor_effort: Largest effort of a joint's motor [N or N m].
         friction: Coefficient of a collision, by ``model::link::collision``.
         lidar_noise: Standard deviation [m], by ``model::link::sensor``.
-        pose: Where models start after a reset, by model.
+        pose: Poses of models after a reset, by model.
     """
 
     def __init__(self, simulation: PopulatedState) -> None:

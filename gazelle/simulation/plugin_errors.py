@@ -20,9 +20,9 @@ def warn_of_fault(
     Args:
         plugin: Plugin that failed.
         name: Such as "plugin 'drive' of 'r1'".
-        when: When it failed, and what becomes of it.
+        when: Time of the failure, and its consequence.
         error: Its exception.
-        source: Where a file names it.
+        source: Place in a file.
     """
     line = _line(plugin, error)
     if isinstance(error, Error):

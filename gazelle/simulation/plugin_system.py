@@ -28,7 +28,7 @@ class InStep:
 
     Attributes:
         kernels: Updated in each step, in order; none while there is nothing to do.
-        until_ns: When Python has to update the system [ns]; infinite for never.
+        until_ns: Time of Python's next update of the system [ns]; infinite for never.
         lasting: Whether this holds, and ``settle`` may wait, until something is done to the system
             (``SystemsInStep.invalidate``). Else the system is queried again after some steps.
     """

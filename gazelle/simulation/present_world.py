@@ -39,7 +39,7 @@ def present_world(simulation: Simulation, world: int = 0) -> World:
 
     Args:
         simulation: Any engine.
-        world: Which of a batch.
+        world: World of a batch.
 
     Raises:
         SimulationError: There is no such world.

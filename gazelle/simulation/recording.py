@@ -78,7 +78,7 @@ class Recorder(Closeable):
 
     Args:
         simulation: Simulation.
-        path: Where to write; an existing file is replaced.
+        path: File to write; an existing one is replaced.
 
     Raises:
         SimulationError: The file cannot be written.

@@ -23,8 +23,8 @@ class CommandedJoint:
 
     Attributes:
         name: Within the robot.
-        interfaces: That it can be commanded through, at least one; the first one acts at first.
-        limits: That commands are held within.
+        interfaces: Command interfaces, at least one; the first one is used at first.
+        limits: Limits of the commands.
         gains: For positions and velocities; None to be put there.
     """
 

@@ -25,7 +25,7 @@ class SystemsInStep:
 
     Attributes:
         kernels: Systems that engines update in steps.
-        soonest_ns: When Python has to update the first of these systems [ns].
+        soonest_ns: Time of Python's next update of these systems [ns].
     """
 
     def __init__(self) -> None:

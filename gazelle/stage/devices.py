@@ -68,7 +68,7 @@ class Devices:
         Args:
             other: Devices before the change.
             pairs: Indices of the robots that both have, there and here.
-            things: Where each thing is now that was somewhere.
+            things: Index now of each object before.
         """
         for there, here in pairs:
             for old, new in zip(other._of(there), self._of(here), strict=False):

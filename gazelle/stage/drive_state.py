@@ -21,11 +21,11 @@ class DriveState:
 
     Args:
         robots: The first of the fleet's bodies.
-        fleet: That moves them.
+        fleet: Fleet that moves them.
         seed: The run's seed.
 
     Attributes:
-        odometry: Where they believe they are.
+        odometry: Their odometry.
         steering: Steering of the cars.
         first: Systems to be updated at the beginning of a step.
         last: At the end.

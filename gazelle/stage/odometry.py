@@ -31,7 +31,7 @@ class WheelOdometry:
     Attributes:
         needed: Whether any robot uses it.
         used: Whether each robot's localization is ``odom``, shape (nrobot,).
-        pose: Where they believe they are, shape (nworld, nrobot, 3); without robots if none
+        pose: Odometry, shape (nworld, nrobot, 3); without robots if none
             uses it.
         stream: Random stream.
     """

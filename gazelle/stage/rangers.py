@@ -19,14 +19,14 @@ class Rangers:
     Args:
         fleet: Fleet.
         fans: Beams of each scanner.
-        mounts: Where its sensors are.
+        mounts: Mounts of its sensors.
         noises: Of its sensors: standard deviation [m], largest share of the distance, and
             standard deviation of angles [rad].
         seed: The run's seed.
 
     Attributes:
         fans: Beams of each scanner.
-        mounts: Where its sensors are.
+        mounts: Mounts of its sensors.
         noise: Of its sensors.
     """
 

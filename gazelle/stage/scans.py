@@ -34,7 +34,7 @@ class RangerScanner:
     Args:
         fleet: Fleet.
         fan: The beams.
-        mounts: Where they are.
+        mounts: Mounts of the sensors.
         noise: Of each.
         stream: Of random numbers.
         seed: The run's seed.

@@ -16,11 +16,11 @@ class StepOutput(Output[T]):
     """Published after every step while it has subscribers.
 
     Args:
-        robot: Whose it is.
+        robot: Its robot.
         topic: Topic name.
         kind: Type of the values.
         produce: Computes the value now.
-        namespace: Whose frames they are.
+        namespace: Namespace of the frames.
     """
 
     def __init__(

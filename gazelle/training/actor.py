@@ -52,7 +52,7 @@ class Actor:
         low: Lower bounds of the actions (continuous heads), shape (actions,).
         high: Upper bounds of the actions (continuous heads), shape (actions,).
         first_action: The number of the first discrete action.
-        limits: Where observations are cut first, least and greatest, shape (2, inputs), if they are.
+        limits: Limits of observations before that, least and greatest, shape (2, inputs), if any.
         features: Entries added to observations before the first layer, if any.
         pictures: Layers for images, of a policy with images.
         memory: Memory layers before the first layer, if any.
@@ -166,7 +166,7 @@ class Actor:
 
         Args:
             outputs: Result of `outputs`, shape (N, outputs).
-            rng: Where the chance comes from.
+            rng: Random generator.
 
         Returns:
             Shape (N,) int64, counted from 0, or (N, actions) float32, not yet cut to the bounds.

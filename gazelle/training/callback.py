@@ -82,7 +82,7 @@ class TrainingCallback(BaseCallback):  # type: ignore[misc]  # untyped base
     """Called by the learner between two rollouts.
 
     Args:
-        run: Where curves and checkpoints go.
+        run: Run for curves and checkpoints.
         total: Control steps of the whole training.
         episodes: The account of the latest episodes.
         progress: Shows how far the run is.

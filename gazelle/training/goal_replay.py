@@ -20,8 +20,8 @@ class GoalReplay:
     """Layout of goals in the rows of a replay memory, and their reward.
 
     Attributes:
-        achieved: Where in a row it stands what is reached.
-        desired: Where in a row the goal stands.
+        achieved: Place of the achieved goal in a row.
+        desired: Place of the desired goal in a row.
         shape: Of one goal.
         reward: ``compute_reward`` of the environment.
     """

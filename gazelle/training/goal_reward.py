@@ -74,9 +74,9 @@ class GoalRewards:
 
         Args:
             info: Of the step.
-            last: Where the ended episodes have their last info, if not in ``info``.
+            last: Last info of the ended episodes, if not in ``info``.
             slots: Copies with an ended episode.
-            terminated: Where the task ended them, shape (N,).
+            terminated: Mask of terminated episodes, shape (N,).
             valid: False where the step was spent on a reset, shape (N,).
 
         Raises:

@@ -26,7 +26,7 @@ class PeriodicEvaluation:
     numbers of their own, so that a training does the same with them as without.
 
     Args:
-        run: Where the files go, and what shapes the evaluations.
+        run: Run of the files and settings of the evaluations.
 
     Attributes:
         evaluated_at: Control steps done at the last evaluation.

@@ -101,7 +101,7 @@ class Lines:
     """A line now and then, for logs and pipes.
 
     Args:
-        stream: Where the lines go.
+        stream: Output of the lines.
         seconds: Wall time between two lines [s].
     """
 
@@ -140,7 +140,7 @@ class Bar:
     """A progress bar of one line, for terminals.
 
     Args:
-        stream: Where the bar goes.
+        stream: Output of the bar.
     """
 
     def __init__(self, stream: TextIO) -> None:
@@ -182,7 +182,7 @@ def choose_progress(stream: TextIO | None = None) -> Progress:
     """Return a bar on a terminal, else a line now and then.
 
     Args:
-        stream: Where to; by default standard error.
+        stream: Output; by default standard error.
     """
     stream = stream or sys.stderr
     return Bar(stream) if stream.isatty() else Lines(stream)

@@ -73,7 +73,7 @@ def play(
         env: The copies of the task.
         actor: The policy.
         steps: Number of steps.
-        rng: Where actions are drawn from.
+        rng: Random generator of the actions.
         on_step: Called after each step; what it returns says whether to continue.
 
     Returns:

@@ -79,7 +79,7 @@ def unpack_run(file: str | Path, out: str | Path = "runs") -> Run:
 
     Args:
         file: The archive.
-        out: Where the run's folder is made; another run of its name stays as it is.
+        out: Parent folder of the run; another run of its name stays as it is.
 
     Raises:
         FormatError: The file is damaged or no run, is too large, or has other files in it.

@@ -46,7 +46,7 @@ class ObservationScale:
     Attributes:
         gain: Factor of an entry, shape (entries,).
         offset: Offset added afterwards, shape (entries,).
-        limits: Where entries are cut before that, least and greatest, shape (2, entries).
+        limits: Limits of entries before that, least and greatest, shape (2, entries).
         moments: Of what was observed: mean, squared deviations, least, greatest, and whether the
             entry is normalised by them, shape (5, entries).
         tally: Number of observations, and whether the normalised entries are decided.
@@ -137,7 +137,7 @@ class ScaledObservations(BaseFeaturesExtractor):  # type: ignore[misc]  # untype
         features: Whether sines, cosines and logarithms are added by the bounds.
         angles: Entries with sines and cosines added in any case.
         bearing: Of a fixed goal, if that is added.
-        goals: Where what is reached and the goal stand, if by how much it is missed is added,
+        goals: Places of achieved and desired goal, if their difference is added,
             scaled as the goal is.
     """
 

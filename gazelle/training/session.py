@@ -179,7 +179,7 @@ def resume(
         imports: Modules or files that register the task, if not those that the run names.
         trust: Whether to import modules that the run names and ``imports`` does not.
         workers: For a run that was begun with workers: how many, by default one.
-        ray: Where they are, see `train`.
+        ray: Ray address, see `train`.
 
     Raises:
         FormatError: There is no run, no checkpoint, or it is damaged.

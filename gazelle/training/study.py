@@ -82,7 +82,7 @@ class ExperimentHost:
     """A worker's side of a study: calls the function.
 
     Args:
-        module: Where it is.
+        module: Its module.
         name: Name there.
     """
 

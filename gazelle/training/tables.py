@@ -35,7 +35,7 @@ def rows_until(file: Path, column: str, steps: int) -> list[dict[str, str]]:
 
     Args:
         file: The table.
-        column: Where it has the number of control steps.
+        column: Column with the number of control steps.
         steps: Rows beyond these are left out.
 
     Raises:

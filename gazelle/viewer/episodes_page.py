@@ -19,7 +19,7 @@ class EpisodesPage(Closeable):
         port: Of the server; any free one if 0.
 
     Attributes:
-        url: Where the page is.
+        url: Address of the page.
     """
 
     def __init__(self, simulation: Simulation, goals: GoalPlaces, port: int) -> None:

@@ -62,7 +62,7 @@ class LiveView(Closeable):
         panels: Makers of further parts of the page.
 
     Attributes:
-        url: Where the page is.
+        url: Address of the page.
 
     Raises:
         MissingExtraError: viser is not installed.

@@ -29,7 +29,7 @@ def take_picture(
     Args:
         simulation: Simulation to view.
         path: ``.png``, ``.jpg`` or ``.webp``.
-        eye: Where the camera is [m].
+        eye: Position of the camera [m].
         target: Target point [m].
         size: Width and height [pixel].
         world: World of a batch.

@@ -35,7 +35,7 @@ class SceneCamera:
 
     Args:
         simulation: Simulation to view.
-        eye: Where the camera is [m]; by default where it sees the whole world, or behind the
+        eye: Position of the camera [m]; by default one that sees the whole world, or behind the
             model that it follows, and elsewhere as soon as something blocks the view. While it
             follows, in the frame that moves with the model.
         target: Target point [m], likewise.

@@ -20,7 +20,7 @@ class TrainingPage(Closeable):
         port: Of the server; any free one if 0.
 
     Attributes:
-        url: Where the page is.
+        url: Address of the page.
     """
 
     def __init__(self, simulation: Simulation, goals: GoalPlaces, port: int) -> None:

@@ -147,7 +147,7 @@ class HeadPointer:
         """Return a point in the frame of a link.
 
         Raises:
-            ControlError: Where its frame is is not known.
+            ControlError: The transform of its frame is unknown.
         """
         place, frame = np.array(point(target.point)), target.header.frame_id.lstrip("/")
         if not frame:

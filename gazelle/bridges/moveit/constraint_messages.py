@@ -30,7 +30,7 @@ def constraints_of_message(
     Args:
         message: The constraints.
         frames: Their frames.
-        state: Where the robot is: frames may move with it. Shape (variables,).
+        state: State of the robot, with which frames may move. Shape (variables,).
 
     Raises:
         NoPlanError: A frame is not known, or a constraint is of a kind that is not planned for.

@@ -32,7 +32,7 @@ class ActionController:
         name: Its name.
         action: Of the action.
         kind: ``FollowJointTrajectory``, ``GripperCommand``, or one of ``FAKE``, which has no action.
-        joints: That it moves.
+        joints: Joints that it moves.
         effort: Greatest one of a gripper, where a trajectory says none.
         commanded: Joints of a gripper whose positions, added up, are its goal: one, or both of a parallel one.
         may_fail: Whether a gripper that ends anywhere has done its work (``allow_failure``).

@@ -39,7 +39,7 @@ class PlanningFrames:
 
         Args:
             frame: Of the message's header.
-            state: Where the robot is, shape (variables,).
+            state: State of the robot, shape (variables,).
 
         Raises:
             NoPlanError: It is not known.

@@ -27,7 +27,7 @@ class GraspReader:
     Args:
         context: The robot and its frames.
         group: Group of the tip: directions along links that it moves turn with them.
-        state: Where the robot is, shape (variables,).
+        state: State of the robot, shape (variables,).
     """
 
     def __init__(self, context: PlanningContext, group: JointModelGroup, state: Floats) -> None:

@@ -74,7 +74,7 @@ def object_message(
 
     Args:
         thing: The object.
-        frame: That its pose is in.
+        frame: Frame of its pose.
         shapes: Whether to say more than its name and type.
     """
     message = moveit_msgs.msg.CollisionObject()

@@ -38,7 +38,7 @@ def shortest_plan(
     Args:
         scene: Planning scene.
         group: Group of the joints that move.
-        goal: Where to.
+        goal: Goal.
         start: Of all variables, shape (variables,).
         held: Constraints all along.
         options: Planning options; their time is that of all attempts together.

@@ -37,7 +37,7 @@ class PlanningContext:
         planned: The scene that plans are made in, so that nothing waits for a plan; use it only while
             holding ``planning``, and have it follow ``scene`` before.
         planning: Plans come one at a time; take it before ``lock``.
-        monitor: Where the joints are.
+        monitor: State of the joints.
         frames: Frames of messages.
         capabilities: Available services and actions.
 

@@ -23,7 +23,7 @@ class JointStateMonitor:
 
     Args:
         node: On the graph.
-        robot: Whose joints; others are ignored.
+        robot: Robot of the joints; others are ignored.
         topic: Of the joint states.
     """
 
@@ -93,7 +93,7 @@ def state_of_message(
     """Convert a ``moveit_msgs/RobotState`` to positions; other joints stay as they are.
 
     Args:
-        robot: Whose state.
+        robot: Robot of the state.
         message: The state.
         current: Of all variables, shape (variables,).
 

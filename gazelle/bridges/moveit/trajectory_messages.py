@@ -12,7 +12,7 @@ def trajectory_message(plan: MotionPlan, frame: str) -> moveit_msgs.msg.RobotTra
 
     Args:
         plan: The plan.
-        frame: That it was planned in.
+        frame: Frame of the plan.
     """
     message = moveit_msgs.msg.RobotTrajectory()
     joints = message.joint_trajectory

@@ -84,8 +84,8 @@ class MappingNode(ABC):
             message: The scan.
             ranges: [m], shape (n,).
             angles: Of the beams in the laser's frame [rad], shape (n,).
-            laser: Where the laser is on the robot.
-            odom: Where the robot was by its odometry; None where that is not `needs_odometry`.
+            laser: Pose of the laser on the robot.
+            odom: Odometry of the robot; None where that is not `needs_odometry`.
         """
 
     @abstractmethod

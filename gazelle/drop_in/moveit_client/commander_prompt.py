@@ -58,7 +58,7 @@ def converse(interpreter: MoveGroupCommandInterpreter, master: str) -> None:
 
     Args:
         interpreter: Understands them.
-        master: Where the master is, for people.
+        master: Address of the master, for people.
     """
     completer = CommandCompleter()
     completer.install()

@@ -101,7 +101,7 @@ class GroupTarget:
         Args:
             pose: In the frame that is planned in.
             link: Of the group.
-            start: Where the search begins, shape (variables,).
+            start: Start of the search, shape (variables,).
             approximate: To be content with less; MoveIt's usual solvers know no such thing.
         """
         self.state = self._access.bounded(start)

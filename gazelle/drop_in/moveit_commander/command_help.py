@@ -58,7 +58,7 @@ def keywords(groups: Iterable[str], group: MoveGroupCommander | None) -> dict[st
 
     Args:
         groups: Names of the robot's groups.
-        group: That is used.
+        group: Group in use.
     """
     known = [*group.get_remembered_joint_values()] if group is not None else []
     directions = ["up", "down", "left", "right", "backward", "forward", "random"]

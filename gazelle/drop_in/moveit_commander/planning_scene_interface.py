@@ -125,8 +125,8 @@ class PlanningSceneInterface:
 
         Args:
             object: One of these, or a name.
-            link: That holds it.
-            touch_links: That it may touch; the link alone if None.
+            link: Link that holds it.
+            touch_links: Links that it may touch; the link alone if None.
         """
         if isinstance(object, str):
             object = _existing(object)  # noqa: A001

@@ -60,7 +60,7 @@ class ControllersConnection:
         """Wait until all of the list run, as after their launch.
 
         Raises:
-            ClientError: That takes longer than ``timeout`` [s of wall time].
+            ClientError: It takes longer than ``timeout`` [s of wall time].
         """
         self._controllers.wait_for(self.controllers_list, timeout=timeout)
 

@@ -39,7 +39,7 @@ class _ContactRows:
 
     Attributes:
         worlds: World of each, shape (k,).
-        starts: Where its world's constraints begin among ``forces``, shape (k,).
+        starts: Start of its world's constraints among ``forces``, shape (k,).
     """
 
     worlds: Worlds

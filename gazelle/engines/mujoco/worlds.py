@@ -73,7 +73,7 @@ class RunningWorlds:
         compiled: Compiled model.
         pending: Parts to compile before the next step: motors, and models that become kinematic.
         batch: The copies.
-        layout: Where things are in their arrays.
+        layout: Layout of their arrays.
         state: Views of their states.
         parameters: Physical parameters that were changed.
         overlaps: Bodies under penetration recovery.

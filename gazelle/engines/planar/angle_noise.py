@@ -27,7 +27,7 @@ class AngleNoiseScanner(Scanner):
     Args:
         fleet: Fleet of the rays.
         fan: The beams as they should be.
-        mounts: Where they start.
+        mounts: Mounts of the sensors.
         spread: Standard deviation of the angles of each [rad], shape (mounts,).
         named: Whether to remember what each beam met.
         seed: Of the noise.

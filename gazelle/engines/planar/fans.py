@@ -116,7 +116,7 @@ class Scanner:
     Args:
         fleet: Fleet of the rays.
         fan: The beams.
-        mounts: Where they start, the same in all worlds.
+        mounts: Mounts of the sensors, the same in all worlds.
         named: Whether to remember what each beam met.
         noise: On the ranges; None for none.
         seed: Of the noise, any int.

@@ -54,7 +54,7 @@ class Body:
 
     Attributes:
         parts: In its own frame.
-        pose: Where it is at first: x, y [m], heading [rad].
+        pose: Initial pose: x, y [m], heading [rad].
         z: Height of its frame [m].
         drive: Drive; None for nothing but ``Fleet.place``.
         family: Bodies of one family neither see nor bump each other; None for its own.

@@ -81,7 +81,7 @@ class RayFan:
 
     Attributes:
         fan: The beams.
-        mounts: Where they start.
+        mounts: Mounts of the sensors.
         begin: Distance of where rays begin from where the fan does [m].
     """
 

@@ -35,7 +35,7 @@ class RunningPlane:
     Attributes:
         recipe: Recipe of the running plane.
         fleet: Moves the bodies.
-        layout: Where models, joints and links are among them.
+        layout: Layout of models, joints and links.
         angles: Of all joints [m or rad], shape (nworld, axes).
         rates: Their velocities, likewise.
         targets: Velocities that motors hold, likewise; not a number where there is no motor.

@@ -42,7 +42,7 @@ class DriveSettings(TaskSettings):
     Attributes:
         starts: ``published``, or ``training`` or ``held-out``: anywhere in free space, with any
             heading; places of the two are not the same.
-        goal: Where to go instead (x, y) [m], in tasks with a goal.
+        goal: Goal instead (x, y) [m], in tasks with a goal.
         course: Numbers of steps over which its course is shown as well, in tasks with a goal; see
             `CourseTask`.
     """

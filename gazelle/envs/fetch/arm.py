@@ -59,9 +59,9 @@ class ReachingArm(CarriedGripper):
     velocities that lead there in a period.
 
     Args:
-        simulation: Where it is put.
-        start: Where the point between its fingers begins [m], in the world frame.
-        base: Where the robot stands (x, y) [m].
+        simulation: Simulation for it.
+        start: Start of the point between its fingers [m], in the world frame.
+        base: Position of the robot (x, y) [m].
         fingers_move: See `CarriedGripper`.
 
     Raises:

@@ -22,8 +22,8 @@ class FetchFigures:
 
     Attributes:
         world: The bundled world.
-        base: Where the robot stands (x, y).
-        gripper: Where the gripper begins (x, y, z).
+        base: Position of the robot (x, y).
+        gripper: Start of the gripper (x, y, z).
         has_object: Whether there is something to move, at which goals are meant.
         fingers_move: Whether the fourth entry of actions moves the fingers.
         in_the_air: Whether half of the goals are above the table.

@@ -58,7 +58,7 @@ class CarriedGripper(ABC):
     """Fetch's gripper, pointing down, in all worlds.
 
     Args:
-        robot: That it is part of.
+        robot: Robot of the part.
         slides: Names of its slide joints, which have motors.
         fingers_move: Whether there are motors on the fingers; else they stay closed.
     """
@@ -127,8 +127,8 @@ class FlyingGripper(CarriedGripper):
     """The gripper alone, on three slides that go wherever they are commanded.
 
     Args:
-        simulation: Where it is put.
-        start: Where the point between its fingers begins [m], in the world frame.
+        simulation: Simulation for it.
+        start: Start of the point between its fingers [m], in the world frame.
         fingers_move: See `CarriedGripper`.
     """
 
@@ -157,7 +157,7 @@ def flying_model(robot: Model, start: tuple[float, float, float], *, fingers_mov
 
     Args:
         robot: Fetch.
-        start: Where the point between its fingers is with all slides at zero [m].
+        start: Position of the point between its fingers with all slides at zero [m].
         fingers_move: Whether the fingers can move; else they stay closed.
     """
     kept = {_WRIST, *(joint.child for joint in robot.joints if joint.name in FINGERS)}

@@ -15,8 +15,8 @@ class StandRules:
     """Parameters of the task; the defaults are the published ones.
 
     Attributes:
-        desired: Where the base should be [m].
-        desired_yaw: Where it should look [rad].
+        desired: Desired position of the base [m].
+        desired_yaw: Desired heading [rad].
         desired_force: Desired contact force of the foot [N].
         lowest: Height of the base below which an episode ends [m].
         highest: Height at which it ends [m].

@@ -17,7 +17,7 @@ class FlightRules:
     """Parameters of the task; the defaults are the published ones.
 
     Attributes:
-        goal: Where to fly [m]; ends do not depend on its height.
+        goal: Goal of the flight [m]; ends do not depend on its height.
         low: Lower edges of the work space along x, y and z [m].
         high: Upper edges, which belong to it [m].
         steepest: Largest roll and pitch [rad].

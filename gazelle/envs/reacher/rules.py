@@ -56,8 +56,8 @@ class ReachView:
 
     Attributes:
         angles: Of the joints [rad], shape (n, 6).
-        tool: Where the tool is [m], shape (n, 3).
-        goal: Where it should be [m], shape (n, 3).
+        tool: Position of the tool [m], shape (n, 3).
+        goal: Goal of the tool [m], shape (n, 3).
         direction: From tool to goal, of length 1, shape (n, 3).
         distance: From tool to goal [m], shape (n,).
     """

@@ -21,7 +21,7 @@ class Rules:
 
     Attributes:
         world: Name of the bundled world.
-        start: Where the robot starts, x and y in the world frame [m]; yaw is 0.
+        start: Start of the robot, x and y in the world frame [m]; yaw is 0.
         control_period: Simulated time of one step [s]: the lidar's period.
         time_step: Physics step [s].
         range_max: Ranges are capped here [m].

@@ -15,7 +15,7 @@ class ChannelRules:
     """Parameters of the task; the defaults are the published ones.
 
     Attributes:
-        goal: Where to go [m]; its height counts for distances, not for ends.
+        goal: Goal [m]; its height counts for distances, not for ends.
         tolerance: Tolerance of a place along x and along y [m].
         low: Lower edges of the work space along x and y [m].
         high: Upper edges, which belong to it [m].

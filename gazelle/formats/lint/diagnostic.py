@@ -15,7 +15,7 @@ class Diagnostic:
     Attributes:
         rule: Short name of the rule.
         message: Description of the finding.
-        why: Why it matters.
+        why: Reason.
         hint: The change to make.
         source: Where.
     """

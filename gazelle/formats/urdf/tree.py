@@ -51,7 +51,7 @@ class LumpedLink:
     Attributes:
         link: The one that gives name and frame.
         pose: Of that link in the model.
-        joint: That holds it to its parent body; None for the root.
+        joint: Joint to its parent body; None for the root.
         parent: Name of the parent body.
         origin: Of the joint in the parent body.
         members: The link itself, then those lumped into it.

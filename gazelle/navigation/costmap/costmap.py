@@ -65,7 +65,7 @@ class Costmap:
         origin: Of the lower left corner (x, y) [m].
         rolling: Whether it moves along with the robot, which is then in its middle.
         track_unknown: Whether cells that nothing is known of are unknown; else they are free.
-        frame: That it is in.
+        frame: Its frame.
 
     Attributes:
         cells: Costs, shape (rows, columns), row 0 the lowest.

@@ -27,7 +27,7 @@ class Observation:
     """Sensor reading at one time.
 
     Attributes:
-        time: When [s].
+        time: Time [s].
         origin: Of the sensor in the costmap's frame [m], shape (3,).
         points: Observed points, likewise, shape (n, 3).
     """
@@ -110,7 +110,7 @@ class ObstacleLayer(Layer):
 
         Args:
             source: Its name.
-            time: When [s].
+            time: Time [s].
             origin: Of the sensor in the costmap's frame [m], shape (3,).
             points: Likewise, shape (n, 3).
         """

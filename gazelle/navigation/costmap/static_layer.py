@@ -30,7 +30,7 @@ class StaticLayer(Layer):
         use_maximum: Whether it only raises costs; else it overwrites what is below.
 
     Attributes:
-        to_map: Where the costmap's frame is in the map's; only rolling costmaps may differ.
+        to_map: Pose of the costmap's frame in the map's; only rolling costmaps may differ.
     """
 
     def __init__(

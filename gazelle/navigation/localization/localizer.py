@@ -28,7 +28,7 @@ class Localizer:
     Attributes:
         filter: The particles.
         estimate: Last common estimate.
-        map_to_odom: Where the frame of the odometry is on the map.
+        map_to_odom: Pose of the odometry's frame on the map.
     """
 
     def __init__(self, settings: AmclSettings, grid: OccupancyMap, seed: int = 0) -> None:

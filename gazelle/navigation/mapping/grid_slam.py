@@ -81,7 +81,7 @@ class GridSlam:
 
     Attributes:
         poses: Of the robot on each particle's map, shape (n, 3).
-        map_to_odom: Where the frame of the odometry is on the best map; None before the first scan.
+        map_to_odom: Pose of the odometry's frame on the best map; None before the first scan.
     """
 
     def __init__(self, settings: GmappingSettings, seed: int = 0) -> None:

@@ -93,7 +93,7 @@ class HectorSlam:
             ranges: [m], shape (n,).
             angles: Of beams in the laser's frame [rad], shape (n,).
             laser: Its pose in the robot's frame.
-            start: Where the robot is thought to be; where it was last if None.
+            start: Initial pose of the robot; the last one if None.
 
         Returns:
             Whether the map has changed.

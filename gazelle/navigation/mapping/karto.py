@@ -76,7 +76,7 @@ class KartoSlam:
 
     Attributes:
         poses: Of the robot at each scan that is kept, shape (n, 3).
-        map_to_odom: Where the frame of the odometry is on the map; None before the first scan.
+        map_to_odom: Pose of the odometry's frame on the map; None before the first scan.
         loops: Number of closed loops.
     """
 

@@ -147,7 +147,7 @@ class MoveBase:
 
         Args:
             time: Now [s].
-            state: Where the robot is.
+            state: State of the robot.
         """
         if self.goal is None:
             return MoveStep()

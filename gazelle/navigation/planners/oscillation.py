@@ -18,8 +18,8 @@ class OscillationGuard:
     Until it has moved on. The rule is that of ``base_local_planner``.
 
     Args:
-        distance: That ends it [m].
-        angle: That ends it, too [rad].
+        distance: Distance that ends it [m].
+        angle: Angle that ends it, too [rad].
     """
 
     def __init__(self, distance: float, angle: float) -> None:

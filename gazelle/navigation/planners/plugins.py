@@ -79,7 +79,7 @@ class LocalPlannerPlugin(ABC):
 
         Args:
             pose: In the costmap's frame.
-            velocity: That the robot has.
+            velocity: Velocity of the robot.
             to_local: The frame of the plan in the costmap's frame.
         """
 

@@ -107,7 +107,7 @@ class StopRotate:
 
         Args:
             pose: Of the robot.
-            velocity: That it has.
+            velocity: Its velocity.
             goal: In the same frame.
             fits: Predicate of commands that hit nothing.
             can_turn: Predicate of angles of turns on the spot that hit nothing.

@@ -90,7 +90,7 @@ class ServiceOutcome:
 
     Attributes:
         success: Whether.
-        text: Why not, or what was done.
+        text: Reason, or what was done.
     """
 
     success: bool

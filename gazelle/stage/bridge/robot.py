@@ -27,9 +27,9 @@ class Facts:
 
     Attributes:
         stamp: When.
-        odometry: Where they believe they are: x, y [m], heading [rad].
+        odometry: Their odometry: x, y [m], heading [rad].
         velocity: In their own frames [m/s, rad/s].
-        pose: Where they are.
+        pose: Their poses.
         true_velocity: In the world's axes.
         stalled: Whether their last move was not made.
     """

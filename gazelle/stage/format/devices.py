@@ -291,7 +291,7 @@ class ModelType:
         read: Its own properties; None if it has none.
         size: Of its body where the file says none.
         solid: Whether it has a body by default.
-        color: Where the file says none.
+        color: Colour where the file has none.
     """
 
     read: Callable[[Properties], StageDevice] | None = None

@@ -20,7 +20,7 @@ class Property(NamedTuple):
         script: File it is in.
         name: Its name.
         token: Its value.
-        offset: Where its name begins.
+        offset: Offset of its name.
     """
 
     script: Script
@@ -55,7 +55,7 @@ class Entity:
         type: Its type, macros followed to their base.
         word: The type as written, which may be a macro's name.
         script: File it is in.
-        offset: Where it begins.
+        offset: Its offset.
         macro: The macro it is made of; None without one.
         own: The properties written in it, by name; of several the last.
         children: The entities written in it.

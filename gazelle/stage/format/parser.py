@@ -36,7 +36,7 @@ def parse(
     Args:
         script: The top-level file.
         reading: Finds what is included.
-        folder: That of the file, where included files are looked for first.
+        folder: Folder of the file, where included files are searched first.
 
     Raises:
         FormatError: The text is no Stage file, or a limit is exceeded.

@@ -31,7 +31,7 @@ def read_world(script: Script, reading: Reading, folder: Path | None) -> StageWo
     Args:
         script: The file.
         reading: Finds what it names, takes remarks.
-        folder: That of the file; None for text.
+        folder: Folder of the file; None for text.
 
     Raises:
         FormatError: It cannot be read, or says something that cannot be.

@@ -66,7 +66,7 @@ class Pilot:
 
     Attributes:
         armed: Whether it may drive.
-        goal: Where it goes; None where it has nothing to do.
+        goal: Its goal; None where it has nothing to do.
         waiting: Goals that follow.
         outcomes: Counts of outcomes.
     """

@@ -28,7 +28,7 @@ class HindsightReplayBuffer(MaskedReplayBuffer):
 
     Args:
         args: As Stable-Baselines3's ``ReplayBuffer`` takes them.
-        goals: Where goals stand in observations, and what they are worth.
+        goals: Places of goals in observations, and their rewards.
         share: Of transitions that get another goal, in [0, 1].
         redraw: Share of these that is drawn again where that goal was reached before the step
             already, in [0, 1] (O. Manela and A. Biess, "Bias-reduced hindsight experience replay

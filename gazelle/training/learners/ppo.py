@@ -51,7 +51,7 @@ class MaskedRolloutBuffer(RolloutBuffer):  # type: ignore[misc]  # untyped base
 
     Attributes:
         valid: Mask of valid transitions, shape (steps, copies).
-        rng: Where the order of the minibatches comes from.
+        rng: Random generator of the order of the minibatches.
     """
 
     valid: npt.NDArray[np.bool_]

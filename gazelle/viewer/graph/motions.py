@@ -49,7 +49,7 @@ class MotionTopic:
         """Move the ghost to where the plan is now.
 
         Args:
-            tree: Where frames are.
+            tree: Tree of the frames.
             fixed: The frame of the page.
             robots: By the parameters of their descriptions.
 

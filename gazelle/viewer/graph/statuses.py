@@ -72,8 +72,8 @@ def status_of(
         kind: Type that it shows.
         offered: Type that the master knows for the topic.
         publishers: Number of nodes that publish on it.
-        unplaced: Why its frame has no transform; empty if it has.
-        error: Why its last message was not drawn; empty if it was.
+        unplaced: Reason why its frame has no transform; empty if it has.
+        error: Reason why its last message was not drawn; empty if it was.
     """
     age = arrivals.age
     fault = ""

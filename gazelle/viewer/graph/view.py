@@ -38,7 +38,7 @@ class GraphView(Closeable):
         port: Of the page; any free one if 0.
 
     Attributes:
-        url: Where the page is.
+        url: Address of the page.
         ended: Whether the graph has requested its shutdown, or it was closed.
 
     Raises:

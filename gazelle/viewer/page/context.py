@@ -66,11 +66,11 @@ class PageContext(UserActions):
         simulation: Simulation.
         page: viser's server.
         worlds: Shown worlds, shape (n,).
-        spots: Where they stand [m], shape (n, 3).
+        spots: Their positions [m], shape (n, 3).
         selected: Name of the model that tools work on, "" for none.
         world: Number of the world that tools work on, among those shown.
         part: Selected part of that model or world.
-        heading: Where the followed model is [m], shape (3,).
+        heading: Position of the followed model [m], shape (3,).
         only_looking: Whether nothing can be changed on the page.
         listeners: Called between two steps after another model or part was selected.
     """

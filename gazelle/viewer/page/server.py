@@ -51,7 +51,7 @@ class PageServer(Closeable):
 
     Attributes:
         viser: Server of the page and its panel.
-        url: Where the page is, with the secret.
+        url: Address of the page, with the secret.
         handlers: Requests that scripts on the page may make, by name.
 
     Raises:

@@ -75,14 +75,14 @@ class ShapeBatches:
         scene: Of the page.
         root: Under which name they are.
         world: World to show.
-        spots: Where the copies stand [m], shape (copies, 3).
+        spots: Positions of the copies [m], shape (copies, 3).
         on_batch: Called with every batch, with what names the part of an instance.
         opacity: Below 1 is transparent.
         wireframe: Whether only edges of triangles are drawn.
 
     Attributes:
         links: Names of the links to place.
-        rest: Where they are in the description, positions (links, 3) and quaternions (links, 4).
+        rest: Poses in the description, positions (links, 3) and quaternions (links, 4).
 
     Raises:
         FormatError: A mesh or a terrain cannot be read.

@@ -86,7 +86,7 @@ class SimulatedClock:
     """A time that others set, such as a simulation through ``/clock``.
 
     Args:
-        topic: Where the time comes from, for the message that it does not come.
+        topic: Topic of the time, for the message that it does not come.
     """
 
     simulated = True
@@ -157,7 +157,7 @@ class Rate:
     """Keeps a loop at a rate on a clock.
 
     Args:
-        clock: Whose time counts.
+        clock: Clock of the durations.
         hertz: Cycles per second.
         reset: Start again after a jump back instead of raising.
 

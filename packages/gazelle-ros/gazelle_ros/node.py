@@ -45,7 +45,7 @@ class Node(TopicNode, ServiceNode, Closeable):
 
     Args:
         name: Base name; a global name is taken as it is.
-        namespace: Where the node stands.
+        namespace: Namespace of the node.
         master_uri: Of the master; by default `ROS_MASTER_URI`, else this machine's port 11311.
         host: The name other nodes reach this one by; it decides the interface. By default
             `ROS_HOSTNAME`, else `ROS_IP`, else loopback.

@@ -49,7 +49,7 @@ class NodeBase(ABC):
         namespace: With slashes at both ends.
         uri: Of the node's XML-RPC server.
         host: The name other nodes reach this one by.
-        tcpros_port: Where topics and services connect to.
+        tcpros_port: Port for topics and services.
         master: The API of the master.
         parameters: The parameter server as this node sees it.
         clock: Source of the time.

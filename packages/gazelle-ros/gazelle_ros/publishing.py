@@ -64,7 +64,7 @@ class Publication:
     """A node's publishers of one topic, which share everything.
 
     Args:
-        node: Whose it is.
+        node: Its node.
         topic: Its resolved name.
         message_class: Of the messages.
     """

@@ -47,7 +47,7 @@ class ServiceServer:
     other exception is reported as well. Calls of different clients may run at the same time.
 
     Args:
-        node: Whose it is.
+        node: Its node.
         name: The service's resolved name.
         service_class: Its type.
         handler: See above.
@@ -195,7 +195,7 @@ class ServiceClient:
     """Service client, as `Node.client` returns it.
 
     Args:
-        node: Whose it is.
+        node: Its node.
         name: The service's resolved name.
         service_class: Its type.
         find_near: Finds a service of this process by host, port and name.

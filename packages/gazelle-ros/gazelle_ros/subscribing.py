@@ -42,7 +42,7 @@ class Subscription:
     """A node's subscribers of one topic, which share connections and decoding.
 
     Args:
-        node: Whose it is.
+        node: Its node.
         topic: Its resolved name.
         message_class: Of the messages.
         neighbour: Finds a node of this process by its URI.

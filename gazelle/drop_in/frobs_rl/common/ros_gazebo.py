@@ -112,7 +112,7 @@ def launch_Gazebo(  # noqa: N802  # frobs_rl's names, here and below
         output: ``screen`` or ``log``.
         custom_world_path: A file with a world.
         custom_world_pkg: A package that has one, in its folder ``worlds``.
-        custom_world_name: That file.
+        custom_world_name: World file.
         respawn_gazebo: Start it again if it ends.
         pub_clock_frequency: Messages of ``/clock`` a second [Hz].
         server_required: End the launch with it.

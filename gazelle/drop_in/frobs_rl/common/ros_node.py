@@ -30,7 +30,7 @@ def ros_node_from_pkg(
         launch_master_term: Taken; nothing here needs a terminal.
         launch_new_term: Likewise.
         name: Of the node; the program's if None.
-        ns: Where it stands.
+        ns: Its namespace.
         output: ``screen`` or ``log``.
     """
     del launch_master, launch_master_term, launch_new_term

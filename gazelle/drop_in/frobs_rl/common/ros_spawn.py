@@ -60,7 +60,7 @@ def spawn_model_in_gazebo(
         model_urdf_file: Its description, URDF or xacro.
         controllers_file: YAML with the controllers' parameters, in the folder ``config``; None for none.
         controllers_list: Controllers to load and start.
-        model_urdf_folder: Where the description is.
+        model_urdf_folder: Folder of the description.
         ns: Namespace of the robot.
         args_xacro: Such as ``["camera:=true"]``.
         max_pub_freq: Publishing rate of its state [Hz].

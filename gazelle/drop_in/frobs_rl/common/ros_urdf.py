@@ -31,7 +31,7 @@ def urdf_load_from_pkg(
         pkg_name: The package.
         model_name: The file, URDF or xacro.
         param_name: The parameter.
-        folder: Where the file is in the package.
+        folder: Folder of the file in the package.
         ns: Namespace of the parameter.
         args_xacro: Such as ``["camera:=true"]``.
     """

@@ -30,7 +30,7 @@ class RobotBasicEnv(gymnasium.Env[Any, Any]):
         gazebo_freq: Messages of ``/clock`` a second [Hz].
         world_path: A file with a world.
         world_pkg: A package that has one, in its folder ``worlds``.
-        world_filename: That file.
+        world_filename: World file.
         gazebo_max_freq: The pace as a multiple of real time; 0 for as fast as possible, None to leave it.
         gazebo_timestep: Between two steps of the physics [s]; None to leave it.
         spawn_robot: Spawn the robot.
@@ -38,7 +38,7 @@ class RobotBasicEnv(gymnasium.Env[Any, Any]):
         namespace: Of its topics and controllers.
         pkg_name: With its description.
         urdf_file: The description, URDF or xacro.
-        urdf_folder: Where that is in the package.
+        urdf_folder: Its folder in the package.
         controller_file: YAML with the controllers' parameters, in the package's ``config``.
         controller_list: Controllers to load and start.
         urdf_xacro_args: Such as ``["camera:=true"]``.

@@ -205,7 +205,7 @@ class BasicModel:
         Args:
             observation: Observation.
             state: Of a recurrent policy.
-            mask: Where episodes begin, for a recurrent policy.
+            mask: Mask of beginning episodes, for a recurrent policy.
             deterministic: The best action instead of a drawn one.
         """
         return self.model.predict(

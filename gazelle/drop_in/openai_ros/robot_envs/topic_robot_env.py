@@ -28,7 +28,7 @@ class RobotTopic:
     """A topic that a robot is known by.
 
     Attributes:
-        attribute: Where the environment keeps the last message.
+        attribute: Attribute of the environment for the last message.
         topic: Its name.
         kind: Its type, such as ``nav_msgs/Odometry``.
     """

@@ -28,7 +28,7 @@ class SteeringTask(DesiredPoint, WheeledRobotEnv):
 
     Attributes:
         published: The task's rules; the parameters replace their figures.
-        place_at: Where x and y are in an observation; None in a task without a goal.
+        place_at: Indices of x and y in an observation; None in a task without a goal.
         goal_axes: Axes that the parameter ``desired_pose`` has.
         last_action: ``FORWARDS``, ``TURN_LEFT`` or ``TURN_RIGHT``.
     """

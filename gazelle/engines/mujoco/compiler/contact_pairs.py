@@ -77,7 +77,7 @@ class ContactGeom:
         share: Share of that mass on one contact point if all of its springs touch [kg].
         collides_with_own: Whether it collides with its own model.
         collision: The description.
-        placed: Where it is in the frame of its body in MuJoCo.
+        placed: Pose in the frame of its body in MuJoCo.
     """
 
     geom: str
@@ -126,7 +126,7 @@ def add_pairs(
     """Add a contact pair for every two surfaces that MuJoCo would mix wrongly.
 
     Args:
-        spec: Where to.
+        spec: Specification to add to.
         solids: All geoms that may touch others.
         time_step: Physics step [s].
         gravity: Its size [m/s²].

@@ -117,7 +117,7 @@ class Draft:
 
     Attributes:
         spec: Specification for MuJoCo's compiler.
-        shapes: That made its geoms, and knows the meshes in it.
+        shapes: Builder of its geoms, which knows their meshes.
         bodies: By model name, in order.
         geoms: Names of MuJoCo's geoms by scoped collision.
         springs: Contacts with terms that depend on the compiled model.

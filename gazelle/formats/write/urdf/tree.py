@@ -24,7 +24,7 @@ class WrittenTree:
 
     Attributes:
         links: By name, in order.
-        joints: That hold each link to the one above it, by the name of the link.
+        joints: Joints of the links to their parents, by the name of the link.
         loops: Joints that close a loop, which URDF has only in SDF's words.
         frames: Pose of each URDF link frame in the model.
         shifts: Pose of each SDF link frame in the URDF one.

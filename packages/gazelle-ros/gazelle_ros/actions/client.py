@@ -29,7 +29,7 @@ class GoalMachine:
     """State machine of a client's goal.
 
     Args:
-        client: Whose goal it is.
+        client: Client of the goal.
         action_goal: Sent goal.
         transition_cb: Called with the handle whenever the state changes.
         feedback_cb: Called with the handle and the feedback.
@@ -171,7 +171,7 @@ class ActionClient:
     """Sends goals to a server.
 
     Args:
-        node: Whose client it is.
+        node: Node of the client.
         name: Of the action.
         spec: The message class of the action.
 

@@ -183,7 +183,7 @@ class ActionServer:
     often the goals are listed, and how long ended ones stay in the list.
 
     Args:
-        node: Whose server it is.
+        node: Node of the server.
         name: Of the action; topics are below it.
         spec: The message class of the action.
         goal_cb: Called with each new goal.

@@ -103,7 +103,7 @@ def wait(
     """Wait for something that a condition announces.
 
     Args:
-        node: Whose time counts, and whose end ends the wait.
+        node: Node whose time counts, and whose end ends the wait.
         condition: Is held while `done` is called.
         done: Whether the wait is over.
         timeout: The longest wait, a duration or seconds; 0 or None for ever.

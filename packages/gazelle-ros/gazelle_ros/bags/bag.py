@@ -338,7 +338,7 @@ class Bag(Closeable):
             topic: Its topic.
             msg: The message; raw, a tuple of type, bytes, checksum, class, with or without a
                 place before the class.
-            t: When it came, a ``Time``; by default now.
+            t: Time of arrival, a ``Time``; by default now.
             raw: The message is such a tuple.
             connection_header: Of the connection, if this is the topic's first message.
 

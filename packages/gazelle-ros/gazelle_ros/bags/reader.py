@@ -132,7 +132,7 @@ class BagReader:
 
     Attributes:
         index: Index of the bag.
-        begin: Where in the file the first record after the header is.
+        begin: Offset of the first record after the header.
 
     Raises:
         BagFormatError: It is no bag, or damaged.

@@ -28,7 +28,7 @@ def scan(view: memoryview, position: int) -> BagScan:
 
     Args:
         view: The bytes of the file.
-        position: Where the first record after the bag's header begins.
+        position: Offset of the first record after the bag's header.
     """
     return _Scanner(view).run(position)
 

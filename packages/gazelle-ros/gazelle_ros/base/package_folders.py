@@ -29,7 +29,7 @@ def package_folders(root: Path, *, most: float = math.inf) -> Iterator[Path]:
     ``rospack_nosubdirs`` and hidden ones. Links are followed.
 
     Args:
-        root: Where to begin; it may be a package itself.
+        root: Start folder; it may be a package itself.
         most: Largest number of searched folders.
     """
     return _below(root, _DEEPEST, set(), most)

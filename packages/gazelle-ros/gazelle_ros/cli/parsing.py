@@ -125,7 +125,7 @@ def add_worker_options(parser: argparse.ArgumentParser, what: str) -> None:
     """Add the options for work in other processes or machines.
 
     Args:
-        parser: Where they are declared.
+        parser: Parser of the declared arguments.
         what: Purpose of the worker processes.
     """
     parser.add_argument("--workers", metavar="N", type=positive_int, help=what)

@@ -44,7 +44,7 @@ def master_program(host: str, port: int, run_id: str) -> Program:
 
     Args:
         host: The name nodes reach it by.
-        port: Where it answers.
+        port: Port.
         run_id: Value for ``/run_id``.
     """
     words = ("--core", "-p", str(port), "--host", host, "--run-id", run_id)

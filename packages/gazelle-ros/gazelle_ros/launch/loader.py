@@ -57,9 +57,9 @@ def load_launch(
     Args:
         path: One file or several, which are read in order.
         args: Values of arguments by name.
-        packages: Where packages are looked up; by default along ROS_PACKAGE_PATH.
+        packages: Packages; by default along ROS_PACKAGE_PATH.
         environment: Variables for ``$(env X)``; by default the process's environment.
-        namespace: Where everything is put that has a relative name.
+        namespace: Namespace of all relative names.
 
     Raises:
         LaunchError: A file is malformed, a ``$(...)`` has no value, or a package is missing; it names

@@ -27,7 +27,7 @@ class Packages:
     """The packages of an environment.
 
     Args:
-        environment: Where ROS_PACKAGE_PATH and CMAKE_PREFIX_PATH are read; by default the process's.
+        environment: Source of ROS_PACKAGE_PATH and CMAKE_PREFIX_PATH; by default the process's.
     """
 
     def __init__(self, environment: Mapping[str, str] | None = None) -> None:

@@ -59,7 +59,7 @@ class NodeProcess:
         start: Start settings.
 
     Attributes:
-        ended_at: When it was last seen to have ended; None while it runs.
+        ended_at: Time when it was last seen to have ended; None while it runs.
         spawned: Number of starts.
     """
 

@@ -73,7 +73,7 @@ class Launch(Closeable):
         plan: Plan of the launch.
         options: Options of the launch.
         say: Gets lines for people.
-        packages: Where programs are looked up.
+        packages: Packages of the programs.
 
     Attributes:
         processes: The nodes' processes, in the order of the plan.

@@ -24,7 +24,7 @@ class LaunchServer:
         host: The name peers use.
 
     Attributes:
-        uri: Where it answers.
+        uri: Address.
         key: The parameter for others.
     """
 

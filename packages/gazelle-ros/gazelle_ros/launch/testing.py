@@ -134,11 +134,11 @@ def run_tests(
     Args:
         plan: The nodes and the tests.
         report: Gets the cases.
-        folder: Where the tests write their results.
+        folder: Folder of the tests' results.
         say: Gets lines for people.
         reuse_master: Use the master that runs instead of a new one for each test.
         text: Tests write to the screen.
-        packages: Where programs are looked up.
+        packages: Packages of the programs.
     """
     begin = time.monotonic()
     known = packages or Packages()

@@ -98,7 +98,7 @@ class ParameterTree:
         """Return the name of `key` in the nearest enclosing namespace that has its first part.
 
         Args:
-            namespace: Where to begin: the name of a node.
+            namespace: Initial namespace: the name of a node.
             key: Relative or global.
 
         Raises:

@@ -39,7 +39,7 @@ class Master(Closeable):
         ended: See the attribute.
 
     Attributes:
-        uri: Where it answers.
+        uri: Address.
         port: The port in it.
         ended: Set on a request to end.
 

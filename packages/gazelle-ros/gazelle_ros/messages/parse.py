@@ -33,7 +33,7 @@ def parse_message(full_name: str, text: str, *, file: str | None = None) -> Mess
     Args:
         full_name: The type's name with its package, such as ``std_msgs/String``.
         text: The definition.
-        file: Where the text is from, for errors.
+        file: File of the text, for errors.
 
     Raises:
         InvalidDefinitionError: The text is malformed; names the line. Or the name holds what
@@ -90,7 +90,7 @@ def action_messages(name: str, text: str, *, file: str | None = None) -> dict[st
     Args:
         name: The action's name without its package.
         text: Goal, result and feedback, with lines of ``---`` between them.
-        file: Where the text is from, for errors.
+        file: File of the text, for errors.
 
     Returns:
         Texts by message name, such as ``FibonacciGoal``.

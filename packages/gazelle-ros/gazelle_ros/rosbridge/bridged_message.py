@@ -23,7 +23,7 @@ class BridgedMessage:
         topic: As clients call it.
         message_class: Of the message.
         data: The message, serialised.
-        received: When it came, on the graph's clock [ns].
+        received: Time of arrival, on the graph's clock [ns].
     """
 
     def __init__(self, topic: str, message_class: Any, data: bytes, received: int) -> None:

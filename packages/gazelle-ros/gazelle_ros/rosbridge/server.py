@@ -45,7 +45,7 @@ class BridgeServer(Closeable):
 
     Attributes:
         node: Likewise.
-        port: Where it listens.
+        port: Port.
 
     Raises:
         MissingExtraError: The extra ``bridge`` is not installed.

@@ -35,7 +35,7 @@ class DedicatedReader:
     All but `_read` runs on the event loop's thread, which alone closes the socket.
 
     Args:
-        loop: Where the socket is watched otherwise.
+        loop: Event loop that watches the socket otherwise.
         step: Reads the socket, on a worker, and does what is to be done; returns whether to go
             on. It may raise OSError or RosError.
         end: Called when the socket is the loop's again, with it and what `step` raised.

@@ -35,7 +35,7 @@ class Receiver(Protocol):
         """Receive whole messages; may pause the link.
 
         Args:
-            link: Where they came from.
+            link: Connection of the messages.
             frames: The messages.
             now: Handle them on this thread if possible, which need not be back soon.
 
@@ -54,7 +54,7 @@ class InboundLink:
     """The connection to one publisher, kept up until it is closed. Only on the loop's thread.
 
     Args:
-        loop: Where it lives.
+        loop: Its event loop.
         calls: For the question which port the publisher listens on.
         receiver: Gets the messages.
         caller: Name of the subscribing node.

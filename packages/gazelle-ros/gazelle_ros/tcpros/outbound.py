@@ -27,7 +27,7 @@ class OutboundLink:
     event loop sends them; without, the publishing thread waits.
 
     Args:
-        loop: Where it lives.
+        loop: Its event loop.
         sock: Connected, header exchanged, non-blocking.
         header: Header of the subscriber.
         address: Of the subscriber.

@@ -38,7 +38,7 @@ class ServiceConnection:
     """The server's side: requests in, answers out, in order.
 
     Args:
-        loop: Where it lives.
+        loop: Its event loop.
         sock: Connected, header exchanged, non-blocking.
         fields: The client's header; without ``persistent`` one call ends the connection.
         answer: Does the work.

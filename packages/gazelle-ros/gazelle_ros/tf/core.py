@@ -103,7 +103,7 @@ class FrameTree:
         Args:
             parent: Name of the parent; one slash in front is dropped, as of `child`.
             child: Name of the frame.
-            stamp: When [ns].
+            stamp: Time [ns].
             translation: [m].
             rotation: (x, y, z, w).
             authority: The sender.

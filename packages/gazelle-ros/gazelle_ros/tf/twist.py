@@ -30,7 +30,7 @@ def twist(
         tracked: The frame that moves.
         observer: The frame it moves against.
         reference: The frame of the result's axes.
-        point: Where the velocity is taken [m].
+        point: Point of the velocity [m].
         point_frame: The frame of `point`.
         stamp: In the middle of the interval [ns], 0 for the latest.
         interval: Interval [ns].

@@ -23,7 +23,7 @@ class GraphInspector(Closeable):
     Args:
         tool: Name of the tool, such as ``rostopic``.
         master_uri: By default `ROS_MASTER_URI`, else this machine.
-        namespace: Where relative names are seen from; by default `ROS_NAMESPACE`.
+        namespace: Namespace of relative names; by default `ROS_NAMESPACE`.
     """
 
     def __init__(

@@ -126,7 +126,7 @@ def superimposition_matrix(
 
     Args:
         v0: The points, shape (3, n) or (4, n), n at least 3.
-        v1: Where they shall come.
+        v1: Vectors to rotate to.
         scaling: Allow scaling, too.
         usesvd: Use a singular value decomposition, else quaternions.
 

@@ -95,8 +95,8 @@ def quaternion_slerp(
     """Return the rotation at a fraction of the way between two.
 
     Args:
-        quat0: Where it starts.
-        quat1: Where it ends.
+        quat0: Initial quaternion.
+        quat1: Final quaternion.
         fraction: 0 at the start, 1 at the end.
         spin: Half turns to add on the way.
         shortestpath: Take the shorter of the two ways.

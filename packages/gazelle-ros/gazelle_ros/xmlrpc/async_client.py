@@ -27,7 +27,7 @@ class AsyncClient:
     """Calls servers from the loop's thread, in order for each server; keeps connections open.
 
     Args:
-        loop: Where it lives.
+        loop: Its event loop.
         timeout: Seconds to wait for an answer.
         limits: Limits for servers.
         lost: Called with a server's URI when it closes a connection that was idle.
@@ -94,7 +94,7 @@ class _Call:
     Attributes:
         document: None while it is being written.
         done: Gets the answer.
-        failure: Why the document could not be written.
+        failure: Reason why the document could not be written.
     """
 
     __slots__ = ("document", "done", "failure")

@@ -44,7 +44,7 @@ class XmlRpcServer:
     Long requests are read, and long answers written, on another thread, so that no other waits.
 
     Args:
-        loop: Where it lives.
+        loop: Its event loop.
         host: The name peers use; it decides the interface.
         port: 0 for any free one.
         dispatch: Returns the value of the answer; what it raises becomes a fault.

@@ -48,7 +48,7 @@ def axis_scales(
         where: Namespace of the parameters, for messages.
         values: The parameters.
         kind: ``linear`` or ``angular``.
-        usual: Where there is one axis only: its name and the defaults of its number, of its scale
+        usual: Usual values where there is one axis only: its name and the defaults of its number, of its scale
             and of that with turbo, None for the scale itself.
 
     Raises:

@@ -23,8 +23,8 @@ class HitModel:
     """Probabilities of a sensor.
 
     Attributes:
-        hit: That a cell with a point is occupied.
-        miss: That a cell that a ray crosses is.
+        hit: Probability of a hit in an occupied cell.
+        miss: Probability of a hit in a crossed cell.
         least: Least probability of a cell.
         most: Greatest one.
         max_range: Points farther off only free what is before that [m]; none if negative.

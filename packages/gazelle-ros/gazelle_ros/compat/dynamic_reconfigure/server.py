@@ -30,7 +30,7 @@ class Server:
             ``level`` and ``config_description``.
         callback: Called with the values and the bits of what changed; returns the values to
             take.
-        namespace: Where the parameters are, below the node's name.
+        namespace: Namespace of the parameters, below the node's name.
     """
 
     def __init__(

@@ -60,7 +60,7 @@ def set_model_configuration_client(
         model_name: Model of the joints.
         model_param_name: Gazebo takes it, and ignores it.
         joint_names: Which.
-        joint_positions: Where [rad or m].
+        joint_positions: Joint positions [rad or m].
         gazebo_namespace: Of the service, such as ``/gazebo``.
 
     Returns:

@@ -133,7 +133,7 @@ class Node:
         package: Its package.
         node_type: Its program.
         name: Its name; by default the program's.
-        namespace: Where its name is.
+        namespace: Namespace of its name.
         machine_name: Accepted; nodes run on this machine.
         args: Its command line.
         respawn: Start it again when it ends.
@@ -205,7 +205,7 @@ class Test(Node):
         package: Its package.
         node_type: Its program.
         name: The node's name; by default the test's.
-        namespace: Where its name is.
+        namespace: Namespace of its name.
         machine_name: Accepted; nodes run on this machine.
         args: Its command line.
         remap_args: Pairs of names.

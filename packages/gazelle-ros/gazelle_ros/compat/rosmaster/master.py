@@ -13,11 +13,11 @@ class Master:
     """A master, with the parameters of a session but without /rosout, as rosmaster's.
 
     Args:
-        port: Where it answers; 0 for any free port.
+        port: Port; 0 for any free port.
         num_workers: Accepted, and not needed.
 
     Attributes:
-        uri: Where it answers; None before it is started.
+        uri: Address; None before it is started.
     """
 
     def __init__(self, port: int = DEFAULT_MASTER_PORT, num_workers: int = NUM_WORKERS) -> None:

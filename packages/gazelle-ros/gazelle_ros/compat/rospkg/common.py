@@ -12,7 +12,7 @@ class ResourceNotFound(Exception):  # noqa: N818  # rospkg's names
 
     Args:
         msg: Its name, or a text.
-        ros_paths: Where it was looked for.
+        ros_paths: Searched places.
     """
 
     def __init__(self, msg: str, ros_paths: list[str] | None = None) -> None:

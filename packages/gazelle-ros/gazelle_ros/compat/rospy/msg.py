@@ -92,7 +92,7 @@ def deserialize_messages(
         data_class: Their class.
         queue_size: Keep this many at most, the oldest dropped.
         max_msgs: Take this many at most.
-        start: Where the first message begins.
+        start: Start of the first message.
     """
     data = b.getvalue()[: b.tell()]
     position, taken = start, 0

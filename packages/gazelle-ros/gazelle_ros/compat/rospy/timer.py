@@ -102,10 +102,10 @@ class TimerEvent:
     """Timing information for a timer's callback.
 
     Attributes:
-        last_expected: When the callback before should have begun; None for the first.
-        last_real: When it began.
-        current_expected: When this one should have begun.
-        current_real: When it began.
+        last_expected: Expected start of the callback before; None for the first.
+        last_real: Its actual start.
+        current_expected: Expected start of this one.
+        current_real: Its actual start.
         last_duration: Duration of the one before [s of wall time].
     """
 

@@ -34,7 +34,7 @@ class TransformBroadcaster:
         Args:
             translation: Of the child in the parent [m], shape (3,).
             rotation: (x, y, z, w).
-            time: When it holds.
+            time: Its time.
             child: Name of the frame.
             parent: Name of the frame it is in.
         """

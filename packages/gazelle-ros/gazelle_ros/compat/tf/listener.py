@@ -230,8 +230,8 @@ class Transformer:
         Args:
             tracking_frame: Moving frame.
             observation_frame: Reference frame.
-            reference_frame: Whose axes the result has.
-            ref_point: Where on the moving frame the velocity is taken.
+            reference_frame: Frame of the result's axes.
+            ref_point: Point of the velocity on the moving frame.
             reference_point_frame: The frame of `ref_point`.
             time: When, 0 for the latest.
             averaging_interval: Over how long.

@@ -55,8 +55,8 @@ class Buffer(BufferCore, BufferInterface):
         """Return the ``TransformStamped`` from source to target.
 
         Args:
-            target_frame: Where values are wanted.
-            source_frame: Where they are.
+            target_frame: Frame of the result.
+            source_frame: Frame of the values.
             time: When, 0 for the latest.
             timeout: Longest wait, in the time of the node.
 

@@ -21,7 +21,7 @@ class BufferServer:
     """Answers look-ups of `BufferClient`.
 
     Args:
-        buffer: Where transforms are looked up.
+        buffer: Buffer of transforms.
         ns: Of the action.
         auto_start: Start at once.
         check_period: Period of the checks of waiting goals [s].

@@ -80,7 +80,7 @@ class IK:
         """Return positions at which the tip is at a pose in the base; None if none are found.
 
         Args:
-            qinit: Where to begin.
+            qinit: Initial positions.
             x: Of the place [m].
             y: Likewise.
             z: Likewise.

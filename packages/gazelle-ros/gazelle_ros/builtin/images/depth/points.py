@@ -103,7 +103,7 @@ def coloured_cloud(
     Args:
         depth: Registered to the camera of the colours.
         colours: Of any size; it is resized to that of the depth.
-        camera: That took the colours.
+        camera: Camera of the colours.
 
     Raises:
         ValueError: The images have different frames, or one is none of its kind.
