@@ -345,3 +345,9 @@ def test_no_bag_is_replaced_if_another_cannot_be(write_bag, tmp_path, command):
     assert main(["bag", command, str(path), str(tmp_path / "nowhere.bag")]) == 1
     assert path.read_bytes() == before
     assert [each.name for each in tmp_path.iterdir()] == [path.name]
+
+
+def test_a_bag_that_is_named_twice_is_compressed_once(write_bag, tmp_path):
+    path = write_bag(ROWS)
+    assert main(["bag", "compress", str(path), f"{tmp_path}/./{path.name}"]) == 0
+    assert sorted(each.name for each in tmp_path.iterdir()) == [path.name, f"{path.stem}.orig.bag"]

@@ -10,6 +10,7 @@ gazelle bag to-mcap drive.bag drive.mcap
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from collections.abc import Callable
 from typing import Any
@@ -148,23 +149,24 @@ def _filter(args: argparse.Namespace) -> int:
     return 0
 
 
-def _open_all(paths: list[str], *, allow_unindexed: bool = False) -> None:
-    """Check that all are bags, before the first one is replaced.
+def _bags(args: argparse.Namespace, *, allow_unindexed: bool = False) -> list[str]:
+    """Return the bags that are to be replaced, each once, after a look at all.
 
     Raises:
-        BagError: One is not.
+        BagError: One is no bag, so that none is replaced.
     """
     from gazelle_ros.bags.reader import BagReader
 
-    for path in paths:
+    bags = {os.path.realpath(path): path for path in args.bags}
+    for path in bags.values():
         BagReader(path, allow_unindexed=allow_unindexed).close()
+    return list(bags.values())
 
 
 def _reindex(args: argparse.Namespace) -> int:
     from gazelle_ros.bags.operations import reindex
 
-    _open_all(args.bags, allow_unindexed=True)
-    for path in args.bags:
+    for path in _bags(args, allow_unindexed=True):
         old, found = reindex(path, folder=args.output_dir, force=args.force)
         count = sum(sum(chunk.counts.values()) for chunk in found.index.chunks)
         if not args.quiet:
@@ -186,8 +188,7 @@ def _to_mcap(args: argparse.Namespace) -> int:
 def _compress(args: argparse.Namespace) -> int:
     from gazelle_ros.bags.operations import recompress
 
-    _open_all(args.bags)
-    for path in args.bags:
+    for path in _bags(args):
         old = recompress(path, args.compression, folder=args.output_dir, force=args.force)
         if not args.quiet:
             sys.stdout.write(f"{path}: {args.compression}; the old bag is {old}\n")
