@@ -16,6 +16,7 @@ PACKAGE = Path(gazelle.__file__).parent
 CHECKOUT = PACKAGE.parent
 ROS = CHECKOUT / "packages"
 QUESTION = re.compile(r"(What|Where|Who|Whose|Whether|How|Which)\b")
+ENTRY = re.compile(r"(?m)^ +\w+: (?:What|Where|Who|Whose|How|Which|When|Why|That)\b.*")
 SENTENCE = re.compile(r"(?s)(.*?[.!?]\)?)(?=\s+[A-Z\"'`(0-9:*\-]|\s*$)")
 MOST_WORDS = 25
 KINDS = {
@@ -75,6 +76,11 @@ def all_docstrings(folder):
         for path in sorted(folder.rglob("*.py"))
         for each in docstrings(path.read_text(encoding="utf-8"))
     ]
+
+
+def is_kernel(path):
+    """Return whether a file of the checkout is compiled."""
+    return "\nimport cython" in (CHECKOUT / path).read_text(encoding="utf-8")
 
 
 def begins_with_verb(text):
@@ -199,6 +205,34 @@ def test_docstrings_of_the_package_begin_with_no_question_word():
     assert [
         each for each in [*all_docstrings(PACKAGE), *all_docstrings(ROS)] if QUESTION.match(each[3])
     ] == []
+
+
+@pytest.mark.parametrize(
+    ("entry", "found"),
+    [
+        ("    worlds: Which worlds.", True),
+        ("    start: Where it begins [m].", True),
+        ("    ClientError: That takes too long.", True),
+        ("    worlds: Worlds; all if None.", False),
+        ("    pose: Pose, which may be None.", False),
+        ("    closed: Whether the mesh has an inside.", False),
+    ],
+)
+def test_entries_that_begin_with_a_question_word_are_found(entry, found):
+    assert bool(ENTRY.search(f"Do it.\n\nArgs:\n{entry}")) == found
+
+
+@pytest.mark.long
+def test_entries_of_docstrings_begin_with_no_question_word():
+    found = [
+        (path, line, entry)
+        for path, _, line, text in [*all_docstrings(PACKAGE), *all_docstrings(ROS)]
+        for entry in ENTRY.findall(text)
+    ]
+    kernels = {
+        path for path, *_ in found if is_kernel(path)
+    }  # a build for each change: as they are
+    assert [each for each in found if each[0] not in kernels] == []
 
 
 @pytest.mark.long

@@ -50,7 +50,7 @@ class Binding:
     dynamic_reconfigure servers.
 
     Args:
-        graph: Where.
+        graph: Node of the topics.
         ports: Of a robot or of the world.
         namespace: Of the robot.
     """

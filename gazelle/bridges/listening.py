@@ -18,7 +18,7 @@ class OnDemandTopic:
     """A topic of a simulation: its port is subscribed while the topic has subscribers.
 
     Args:
-        graph: Where.
+        graph: Node of the topic.
         topic: Full name.
         kind: Of the values.
         listen: To the port.

@@ -43,7 +43,7 @@ def random_obstacles(
 
     Args:
         count: Number of obstacles.
-        area: Where; None for 10 m x 10 m around the origin.
+        area: Area to fill; None for 10 m x 10 m around the origin.
         seed: Same seed, same obstacles.
         kinds: Allowed kinds.
         radius: Least and greatest radius of the circle around one [m].
@@ -90,7 +90,7 @@ def random_plants(
 
     Args:
         count: Number of plants.
-        area: Where; None for 10 m x 10 m around the origin.
+        area: Area to fill; None for 10 m x 10 m around the origin.
         seed: Same seed, same plants.
         kinds: Allowed kinds.
         height: Least and greatest height, of rocks the size [m].

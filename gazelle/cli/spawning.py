@@ -19,7 +19,7 @@ class SpawnRequest:
 
     Attributes:
         robot: A file or a bundled name.
-        pose: Where; None for the origin, or near it if something is there.
+        pose: Initial pose; None for the origin, or near it if something is there.
     """
 
     robot: str

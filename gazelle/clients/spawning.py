@@ -33,7 +33,7 @@ def spawn_robot(
     """Spawn a robot in a running world, with its usual nodes.
 
     Args:
-        gazebo: Where.
+        gazebo: Simulator.
         processes: Runs its ``robot_state_publisher``.
         name: Of the model.
         path: URDF or xacro; within the package if one is given.

@@ -35,12 +35,12 @@ class Goal(Generic[G]):
 
     Args:
         value: Target.
-        worlds: Where, shape (n,).
+        worlds: Its worlds, shape (n,).
         port: Port of the goal.
 
     Attributes:
         value: Target.
-        worlds: Where, shape (n,).
+        worlds: Its worlds, shape (n,).
         states: State in each of them, ``GoalState``, shape (n,).
         results: Result in each of them, of the port's ``result``; None while there is none.
         text: Latest message, for people.
@@ -136,8 +136,8 @@ class Goal(Generic[G]):
         """Set the goal's terminal state in some worlds, where it has none yet.
 
         Args:
-            state: How.
-            worlds: Where; everywhere if None.
+            state: Final state.
+            worlds: Worlds; all if None.
             result: Of the port's kind.
             text: For people.
         """
@@ -197,7 +197,7 @@ class ActionPort(Generic[G]):
 
         Args:
             value: Target.
-            worlds: Where; everywhere if None.
+            worlds: Worlds; all if None.
 
         Returns:
             The goal: ``ACTIVE`` or ended when this returns. One that is ``REJECTED`` has a text.

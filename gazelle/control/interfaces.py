@@ -180,7 +180,7 @@ class JointHandles:
     Args:
         names: Of the joints.
         states: Handles of the states.
-        columns: Where.
+        columns: Columns of the joints.
         commands: By field, the array of all commands and the columns in it.
 
     Attributes:

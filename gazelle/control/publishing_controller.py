@@ -21,7 +21,7 @@ class PublishingController(Controller):
 
     Attributes:
         ports: Published outputs.
-        schedule: When.
+        schedule: Times of publishing.
     """
 
     ports: Sequence[StatePort[Any]]

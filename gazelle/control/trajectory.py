@@ -154,7 +154,7 @@ class TrajectoryTable:
 
         Args:
             time: Now [s].
-            position: Where, shape (n, joints).
+            position: Positions to hold, shape (n, joints).
             rows: Worlds, shape (n,).
         """
         shape = (*position.shape, 1)

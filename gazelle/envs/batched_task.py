@@ -59,7 +59,7 @@ class FinalObservations:
     """Final observations and infos of episodes that a control step ended.
 
     Attributes:
-        worlds: Where, shape (n,).
+        worlds: Worlds of the episodes, shape (n,).
         observation: The last ones, shape (n, size).
         info: The last info, shape (nworld, ...), zero where no episode ended.
     """

@@ -41,7 +41,7 @@ class Note:
 
     Attributes:
         message: Description of the fault and its replacement.
-        source: Where.
+        source: Place in a file.
         hint: Fix.
         severity: An error is what the format does not allow, and Gazebo continues with.
         rule: Name of what is found, where a check finds it in a description too.

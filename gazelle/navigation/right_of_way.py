@@ -111,7 +111,7 @@ class _Waiting:
     """A robot that waits until another one has passed.
 
     Attributes:
-        traveller: That.
+        traveller: Robot that waits.
         goal: Its own; with another one it is its own master again.
         refuge: Place to wait; None if it obstructs nothing.
         until: Distance that the other one has to advance on its path [m].
@@ -128,7 +128,7 @@ class _Encounter:
     """A robot that others yield to.
 
     Attributes:
-        leader: That.
+        leader: Robot that others yield to.
         goal: Its goal.
         path: Its path, shape (n, 2) [m].
         along: Distance along it of each point, shape (n,) [m].

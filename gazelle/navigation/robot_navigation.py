@@ -317,7 +317,7 @@ class GoalTask:
     """An active goal of a robot.
 
     Args:
-        robot: That.
+        robot: Robot with the goal.
         pilots: Of the worlds where it was sent.
     """
 

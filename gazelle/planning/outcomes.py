@@ -38,7 +38,7 @@ class NoPlanError(PlanningError):
     """There is no plan.
 
     Attributes:
-        outcome: Why.
+        outcome: Reason.
     """
 
     def __init__(self, message: str, outcome: PlanOutcome, hint: str | None = None) -> None:

@@ -100,7 +100,7 @@ class DeadReckoning:
         wheels: The left and the right.
 
     Attributes:
-        clock: That.
+        clock: Clock of the samples.
         tables: Of one pair; a column of a group's.
     """
 

@@ -199,7 +199,7 @@ def _fault_of(transmission: Transmission, *, several: bool) -> str:
     """Return the reason why a transmission cannot be used; empty if it can.
 
     Args:
-        transmission: Which.
+        transmission: Transmission to check.
         several: Whether it may have several joints.
     """
     if not transmission.name:

@@ -97,7 +97,7 @@ class Renderer:
             link: Scoped name; a link without visuals is left alone.
             positions: [m] in the world, shape (nworlds, 3).
             quaternions: x, y, z, w, shape (nworlds, 4).
-            worlds: Where; all if None.
+            worlds: Worlds; all if None.
         """
         number = self._numbers.get(link)
         if number is not None:
@@ -117,7 +117,7 @@ class Renderer:
             links: Scoped names of links with visuals.
             positions: [m] in the world, shape (nworlds, links, 3).
             quaternions: x, y, z, w, shape (nworlds, links, 4).
-            worlds: Where; all if None.
+            worlds: Worlds; all if None.
         """
         unknown = next((link for link in links if link not in self._numbers), None)
         if unknown is not None:

@@ -38,7 +38,7 @@ def adopt(simulation: RobotHost, model: Model, robot: Robot, kind: WorldKind | N
 
     Args:
         simulation: Runs.
-        model: That.
+        model: Model to adopt.
         robot: Its handle.
         kind: Runs it, in place of some of its plugins; None for models of no special kind.
     """

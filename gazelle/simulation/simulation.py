@@ -223,7 +223,7 @@ class Simulation(Closeable):
         Args:
             model: A description, or a file, directory, URI or bundled name to load one from.
             name: Its name in the world; the model's own if None.
-            pose: Where; composed with the pose the model's file gives.
+            pose: Initial pose; composed with the pose the model's file gives.
             namespace: Put before its topics.
 
         Raises:

@@ -348,7 +348,7 @@ class StageFleet(Senses):
         """Set the poses of many robots, at rest, regardless of obstacles.
 
         Args:
-            rows: Which, as world * nrobot + robot, shape (n,).
+            rows: Rows, as world * nrobot + robot, shape (n,).
             poses: x, y [m] and heading [rad], shape (n, 3).
 
         Raises:

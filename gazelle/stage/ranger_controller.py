@@ -15,7 +15,7 @@ class RangerController(FleetController):
     Args:
         simulation: Runs.
         robots: Those it drives, each with what it looks at; all of one scanner.
-        scanner: That.
+        scanner: Index of the scanner.
     """
 
     def __init__(

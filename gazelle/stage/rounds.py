@@ -27,7 +27,7 @@ class Rounds(RangerController):
     Args:
         simulation: Runs.
         robots: Those it drives, each with what it looks at; all of one scanner.
-        scanner: That.
+        scanner: Index of the scanner.
     """
 
     def __init__(

@@ -28,7 +28,7 @@ class Wander(RangerController):
     Args:
         simulation: Runs.
         robots: Those it drives, each with what it looks at; all of one scanner.
-        scanner: That.
+        scanner: Index of the scanner.
     """
 
     def __init__(

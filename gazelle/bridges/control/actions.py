@@ -117,7 +117,7 @@ class ActionBridge:
     in a step.
 
     Args:
-        graph: Where.
+        graph: Node of the action.
         topic: Full name of the action.
         port: Takes the goals.
 

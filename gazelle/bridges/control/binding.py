@@ -36,7 +36,7 @@ class ManagerBinding:
     """A manager's services, and the ports of what it has loaded, until it is closed.
 
     Args:
-        graph: Where.
+        graph: Node of the services.
         manager: Of a robot; its topics and services are in its namespace.
 
     Raises:
@@ -71,7 +71,7 @@ class ControllerBinding:
     """The ports of one controller as topics, services and actions.
 
     Args:
-        graph: Where.
+        graph: Node of the topics.
         space: Namespace of the manager, without a slash at its end.
         controller: Of the manager.
     """

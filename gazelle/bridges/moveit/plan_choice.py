@@ -73,7 +73,7 @@ def slowed(plan: MotionPlan, robot: RobotModel, link: str, speed: float) -> Moti
     Args:
         plan: The plan.
         robot: Its robot.
-        link: Which.
+        link: Link of the speed.
         speed: Its greatest speed [m/s]; any if it is not above zero.
 
     Raises:

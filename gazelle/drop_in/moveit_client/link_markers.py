@@ -24,7 +24,7 @@ def link_markers(
     Args:
         robot: The robot.
         state: Of all variables, shape (variables,).
-        links: Which; others are left out.
+        links: Links of the group; others are left out.
         now: Stamp of the markers [ns].
     """
     made = visualization_msgs.msg.MarkerArray()

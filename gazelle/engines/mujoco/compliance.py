@@ -49,7 +49,7 @@ def _keep(
     Args:
         batch: Of them.
         kind: Prefix of their fields in MuJoCo.
-        rows: Which, shape (k,).
+        rows: Rows, shape (k,).
         compiled: Inverse inertias that they are tuned to, shape (k,).
         mobility: Those of every world, shape (nworld, k).
     """

@@ -68,7 +68,7 @@ class RunningWorlds:
         calls: Whether steps can call systems.
 
     Attributes:
-        nworld: That.
+        nworld: Number of worlds.
         recipe: Compiled recipe.
         compiled: Compiled model.
         pending: Parts to compile before the next step: motors, and models that become kinematic.

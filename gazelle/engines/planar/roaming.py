@@ -37,7 +37,7 @@ class Roaming:
     Args:
         fleet: Fleet to drive.
         scanner: Ranges that it looks at, one sensor a body at most; None to drive blind.
-        manner: How.
+        manner: Parameters of its motion.
         seed: Of its turns.
 
     Attributes:

@@ -17,7 +17,7 @@ class Diagnostic:
         message: Description of the finding.
         why: Reason.
         hint: The change to make.
-        source: Where.
+        source: Place in a file.
     """
 
     rule: str

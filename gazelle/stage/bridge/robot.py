@@ -26,7 +26,7 @@ class Facts:
     """The state of all robots of the world that the graph sees, each a list by robot.
 
     Attributes:
-        stamp: When.
+        stamp: Time of the facts.
         odometry: Their odometry: x, y [m], heading [rad].
         velocity: In their own frames [m/s, rad/s].
         pose: Their poses.

@@ -55,7 +55,7 @@ class Guarded:
         """Send a command; call it several times a second.
 
         Args:
-            command: What.
+            command: Command to send.
             active: Whether the node has a say; if not, others may drive.
 
         Raises:

@@ -46,7 +46,7 @@ def decompress(kind: str, data: bytes | memoryview, size: int) -> bytes:
     """Return decompressed data.
 
     Args:
-        kind: How.
+        kind: Kind of compression.
         data: The compressed data.
         size: Its length before, for a check.
 

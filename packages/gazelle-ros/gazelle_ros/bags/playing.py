@@ -67,7 +67,7 @@ class Player:
     Args:
         node: Publishes; it must not run on simulated time.
         paths: The bags.
-        options: What, and how.
+        options: Options of playing.
         show: Called with the state at times: ``RUNNING``, ``PAUSED`` or ``DELAYED``, the bags' time
             and what passed of it, both in seconds.
     """

@@ -99,7 +99,7 @@ class BagRecorder:
 
     Args:
         node: Subscribes.
-        options: What, and how.
+        options: Options of recording.
         say: Gets lines for people.
 
     Attributes:

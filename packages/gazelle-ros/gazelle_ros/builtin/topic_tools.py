@@ -25,7 +25,7 @@ class Repeater:
 
     Args:
         node: Publishes.
-        topic: Where.
+        topic: Topic to subscribe to.
     """
 
     def __init__(self, node: Node, topic: str) -> None:

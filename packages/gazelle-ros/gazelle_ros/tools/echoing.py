@@ -49,7 +49,7 @@ class Echo:
 
     Args:
         out: Gets the text.
-        options: How.
+        options: Options of the output.
         steps: The part of each message.
         kind: The type of that part, if it is no message.
     """

@@ -83,7 +83,7 @@ class MessagePublisher:
 
     Args:
         graph: The graph.
-        topic: Where.
+        topic: Topic to publish.
         kind: The type of the messages.
         out: Gets what is said meanwhile.
         stop: Ends all.

@@ -59,7 +59,7 @@ def set_model_configuration_client(
     Args:
         model_name: Model of the joints.
         model_param_name: Gazebo takes it, and ignores it.
-        joint_names: Which.
+        joint_names: Names of the joints.
         joint_positions: Joint positions [rad or m].
         gazebo_namespace: Of the service, such as ``/gazebo``.
 

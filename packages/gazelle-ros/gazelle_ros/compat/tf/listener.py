@@ -233,7 +233,7 @@ class Transformer:
             reference_frame: Frame of the result's axes.
             ref_point: Point of the velocity on the moving frame.
             reference_point_frame: The frame of `ref_point`.
-            time: When, 0 for the latest.
+            time: Time, 0 for the latest.
             averaging_interval: Over how long.
 
         Raises:

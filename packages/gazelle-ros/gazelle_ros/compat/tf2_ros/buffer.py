@@ -57,7 +57,7 @@ class Buffer(BufferCore, BufferInterface):
         Args:
             target_frame: Frame of the result.
             source_frame: Frame of the values.
-            time: When, 0 for the latest.
+            time: Time, 0 for the latest.
             timeout: Longest wait, in the time of the node.
 
         Raises:
