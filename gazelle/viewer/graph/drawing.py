@@ -66,6 +66,11 @@ class Drawing:
         self._parts[key] = made = make(f"{self.name}/{key}")
         return made
 
+    @property
+    def parts(self) -> list[Any]:
+        """All parts that are there."""
+        return list(self._parts.values())
+
     def part(self, key: str) -> Any:
         """Return a part that is there, or None."""
         return self._parts.get(key)

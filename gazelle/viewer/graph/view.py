@@ -11,6 +11,7 @@ from typing import Any
 from gazelle.viewer.graph.context import GraphContext
 from gazelle.viewer.graph.display_list import DisplayList
 from gazelle.viewer.graph.fitting import ViewFitter
+from gazelle.viewer.graph.interactive import InteractiveServers
 from gazelle.viewer.graph.layouts import LayoutControls
 from gazelle.viewer.graph.panels import PanelSet
 from gazelle.viewer.graph.tools import PointerTools
@@ -121,6 +122,7 @@ class GraphView(Closeable):
         )
         self._panels = PanelSet(context)
         self._displays = DisplayList(context)
+        self._interactive = InteractiveServers(context)
         self._layouts = LayoutControls(context, self._displays, self._panels, self._fitter)
 
     def _follow(self) -> None:
@@ -154,13 +156,15 @@ class GraphView(Closeable):
         """Find what is new on the graph, and report what is wrong."""
         displays, context = self._displays, self._context
         displays.discover()
+        self._interactive.discover(dict(context.node.master.topic_types()))
         self._offer_frames()
         frames = context.tree.names()
         counts = (
             f"{len(frames)} frames, {len(displays.topics)} topics, {len(displays.robots)} robots"
         )
+        faults = [*displays.faults, *self._interactive.faults]
         lines = [f"fixed frame **{context.fixed}** &nbsp; {counts}"]
-        self._set_status("\n\n".join([*lines, *(f"⚠ {fault}" for fault in displays.faults)]))
+        self._set_status("\n\n".join([*lines, *(f"⚠ {fault}" for fault in faults)]))
 
     def _offer_frames(self) -> None:
         """List all frames in the choice of the fixed frame."""
@@ -179,6 +183,7 @@ class GraphView(Closeable):
         displays = self._displays
         with self._context.page.atomic():
             displays.draw()
+            self._interactive.draw()
         extent = displays.extent
         if extent is not None:
             self._fitter.follow(extent, displays.shown_count)
