@@ -31,6 +31,8 @@ from gazelle.formats import Octree
 from gazelle.geometry import triangles
 from gazelle.geometry.mesh_data import MeshData
 from gazelle.geometry.planar_part import PlanarPart
+from gazelle.navigation import costmap, planners
+from gazelle.navigation.estimation import ExtendedPrediction
 from gazelle.sensors import View, look_at
 from gazelle.streams import Stream
 from gazelle.training import Actor
@@ -65,6 +67,10 @@ PACKAGES = {
     "launch": "gazelle_ros.launch",
     "bags": "gazelle_ros.bags",
     "frames": "gazelle_ros.tf",
+    **{
+        name: f"gazelle.navigation.{name}"
+        for name in ("costmap", "estimation", "localization", "mapping", "planners")
+    },
     "mujoco": "gazelle.engines.mujoco",
     "planar": "gazelle.engines.planar",
     "ros": "gazelle_ros",
@@ -361,6 +367,12 @@ TABLE: dict[str, Callable[[Samples], Any]] = {
     "AngleNoiseScanner": lambda s: planar.AngleNoiseScanner(
         TABLE["Fleet"](s), TABLE["Fan"](s), [planar.Mount(0)], np.zeros(1)
     ),
+    "Layer": lambda s: costmap.StaticLayer(),
+    "Costmap": lambda s: costmap.Costmap([], costmap.footprint_of(), width=1.0, height=1.0),
+    "Values": lambda s: {},
+    "GlobalPlannerPlugin": lambda s: planners.NavfnPlanner("a", TABLE["Costmap"](s), {}),
+    "LocalPlannerPlugin": lambda s: planners.DwaPlanner("a", TABLE["Costmap"](s), {}, 0.1),
+    "Prediction": lambda s: ExtendedPrediction(),
     "System": lambda s: planar.DriveVelocities(TABLE["Fleet"](s).bodies),
     "Clock": lambda s: s.stage.clock,
     "Rider": lambda s: s.stage.robot("r").riders[0],

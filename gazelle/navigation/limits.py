@@ -1,11 +1,17 @@
-"""Speed limits of a mobile robot, and the room it needs."""
+"""Limits of a mobile robot: its speeds, the room it needs, and sizes of what it remembers."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 from gazelle.argument_checks import checked
-from gazelle.errors import SimulationError
+from gazelle.errors import Error, SimulationError
+
+MAX_PARTICLES = 10_000_000
+"""Of a filter."""
+
+MAX_CELLS = 1 << 37
+"""Of the maps of all particles together, used or not; 4 bytes for 1,024 that are not."""
 
 
 @checked(SimulationError)
@@ -37,3 +43,13 @@ class BaseLimits:
             value = getattr(self, name)
             if not value > 0.0:
                 raise SimulationError(f"the limit '{name}' must be positive, not {value:g}")
+
+
+def check_maps(count: int, columns: float, rows: float) -> None:
+    """Check that maps fit into memory.
+
+    Raises:
+        Error: They have too many cells, or none.
+    """
+    if not 0.0 < columns * rows * min(count, MAX_CELLS) <= MAX_CELLS:
+        raise Error(f"{count} maps of {columns:g} x {rows:g} cells have none or over {MAX_CELLS:,}")

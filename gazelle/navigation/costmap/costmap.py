@@ -8,6 +8,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Bytes, Floats
 from gazelle.errors import Error
 from gazelle.navigation.costmap.footprint import radii_of
@@ -53,6 +54,7 @@ class Layer(ABC):
         """Clear the observations within an area, or outside of it."""
 
 
+@checked(Error, after=True)
 class Costmap:
     """Layers, one on the other, on a grid.
 

@@ -7,6 +7,7 @@ import math
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Indices
 from gazelle.errors import Error
 
@@ -14,6 +15,7 @@ _CORNERS = 16
 """Of the polygon in place of a circle, as costmap_2d has it."""
 
 
+@checked(Error, after=True)
 def footprint_of(text: object = "[]", radius: float = 0.46, padding: float = 0.01) -> Floats:
     """Return the corners of a robot, padded, shape (n, 2) [m].
 
@@ -31,6 +33,7 @@ def footprint_of(text: object = "[]", radius: float = 0.46, padding: float = 0.0
         if corners.size == 0:
             turns = 2.0 * math.pi * np.arange(_CORNERS) / _CORNERS
             corners = radius * np.stack((np.cos(turns), np.sin(turns)), axis=1)
+        corners = corners + np.sign(corners) * padding
     except (ValueError, SyntaxError, TypeError):
         corners = np.zeros(0)
     if (
@@ -43,8 +46,7 @@ def footprint_of(text: object = "[]", radius: float = 0.46, padding: float = 0.0
             f"a footprint is a list of three corners or more, not {str(text)[:80]!r}",
             hint="such as [[-0.1, -0.1], [-0.1, 0.1], [0.1, 0.1], [0.1, -0.1]]",
         )
-    padded: Floats = corners + np.sign(corners) * padding
-    return padded
+    return corners
 
 
 def radii_of(footprint: Floats) -> tuple[float, float]:

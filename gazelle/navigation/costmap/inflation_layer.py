@@ -6,7 +6,9 @@ import math
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Bytes
+from gazelle.errors import Error
 from gazelle.navigation.costmap.costmap import Costmap, Layer
 from gazelle.navigation.costmap.distances import squared_distances
 from gazelle.navigation.costmap.values import (
@@ -20,6 +22,7 @@ from gazelle.navigation.costmap.values import (
 from gazelle.navigation.following import Pose2
 
 
+@checked(Error, after=True)
 class InflationLayer(Layer):
     """Costs that fall off around obstacles: 252 exp(-k (d - inscribed radius)).
 
@@ -65,7 +68,8 @@ class InflationLayer(Layer):
     def _prepare(self, costmap: Costmap) -> None:
         """Compute a table of costs by squared distance in cells."""
         side = costmap.resolution
-        self._reach = max(math.ceil(self.radius / side - 1e-9), 0)
+        reach = min(self.radius / side, float(max(costmap.cells.shape)))
+        self._reach = max(math.ceil(reach - 1e-9), 0)
         squares = np.arange(self._reach**2 + 2)
         self._table = np.array(
             [self.cost_of(math.sqrt(square) * side, costmap) for square in squares], np.uint8

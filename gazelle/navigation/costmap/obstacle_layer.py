@@ -8,7 +8,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Bytes, Floats
+from gazelle.errors import Error
 from gazelle.navigation.costmap.costmap import Costmap, Layer, raise_to, roll
 from gazelle.navigation.costmap.footprint import cells_under, placed
 from gazelle.navigation.costmap.rays import clear_rays
@@ -37,6 +39,7 @@ class Observation:
     points: Floats
 
 
+@checked(Error)
 @dataclass(slots=True)
 class ObservationSource:
     """A sensor, and how much of what it sees counts.
@@ -77,6 +80,7 @@ class ObservationSource:
             self.observations = [seen]
 
 
+@checked(Error, after=True)
 class ObstacleLayer(Layer):
     """Obstacles that sensors see, in the plane.
 

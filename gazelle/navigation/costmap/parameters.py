@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from gazelle.argument_checks import checked
 from gazelle.errors import Error, SimulationWarning, did_you_mean
 from gazelle.navigation.costmap.costmap import Costmap, Layer
 from gazelle.navigation.costmap.footprint import footprint_of
@@ -40,6 +41,7 @@ class SensorTopic:
     expected_update_rate: float = 0.0
 
 
+@checked(Error)
 @dataclass(frozen=True, slots=True)
 class CostmapSetup:
     """A costmap and what feeds it.

@@ -6,8 +6,10 @@ import math
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Bytes
 from gazelle.description.occupancy import OccupancyMap
+from gazelle.errors import Error
 from gazelle.navigation.costmap.costmap import Costmap, Layer, raise_to
 from gazelle.navigation.costmap.values import (
     FREE_SPACE,
@@ -19,6 +21,7 @@ from gazelle.navigation.costmap.values import (
 from gazelle.navigation.following import Pose2
 
 
+@checked(Error, after=True)
 class StaticLayer(Layer):
     """A given map.
 

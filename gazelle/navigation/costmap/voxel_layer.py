@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Ints32
 from gazelle.errors import Error
 from gazelle.navigation.costmap.costmap import Costmap
@@ -16,6 +17,7 @@ from gazelle.navigation.costmap.voxel_rays import clear_voxels
 _MOST_LAYERS = 16
 
 
+@checked(Error, after=True)
 class VoxelLayer(ObstacleLayer):
     """Obstacles that sensors see, in columns of up to 16 voxels.
 

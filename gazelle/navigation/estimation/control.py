@@ -6,7 +6,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Bools, Floats
+from gazelle.errors import Error
 from gazelle.navigation.estimation.motion import TWIST
 
 _SLACK = 0.01
@@ -17,6 +19,7 @@ def _six(value: float) -> Floats:
     return np.full(6, value)
 
 
+@checked(Error, after=True)
 @dataclass(frozen=True, slots=True)
 class ControlModel:
     """Response of a robot to commands, for three linear and three angular velocities each.

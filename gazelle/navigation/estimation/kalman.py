@@ -10,8 +10,10 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Bools, Floats
 from gazelle.engines.limits import NANOSECONDS
+from gazelle.errors import Error
 from gazelle.navigation.estimation.control import ControlModel, StampedCommand
 from gazelle.navigation.estimation.motion import (
     ACCELERATION,
@@ -82,6 +84,7 @@ class Prediction(Protocol):
         """Return state and covariance after a time [s], without process noise."""
 
 
+@checked(Error, after=True)
 class KalmanFilter:
     """Estimate of 15 elements from measurements of some of them.
 

@@ -10,6 +10,7 @@ import math
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
 from gazelle.errors import Error
 from gazelle.navigation.estimation.motion import (
@@ -21,6 +22,7 @@ from gazelle.navigation.estimation.motion import (
 )
 
 
+@checked(Error, after=True)
 class ExtendedPrediction:
     """Prediction of the covariance by the Jacobian of the motion."""
 
@@ -30,6 +32,7 @@ class ExtendedPrediction:
         return after, slope @ covariance @ slope.T
 
 
+@checked(Error, after=True)
 class UnscentedPrediction:
     """Prediction by 31 sigma points.
 

@@ -6,8 +6,10 @@ import math
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
 from gazelle.description.occupancy import FREE, OccupancyMap
+from gazelle.errors import Error
 from gazelle.navigation.following import Pose2, wrapped
 from gazelle.navigation.localization.odometry_models import check_model, move_particles
 from gazelle.navigation.localization.particle_filter import ParticleFilter, PoseEstimate
@@ -17,6 +19,7 @@ from gazelle.navigation.localization.settings import AmclSettings
 from gazelle.navigation.planners.planar import composed, inverse
 
 
+@checked(Error, after=True)
 class Localizer:
     """Keeps particles of where a robot may be on a map.
 

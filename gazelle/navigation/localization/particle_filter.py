@@ -13,7 +13,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Indices
+from gazelle.errors import Error
+from gazelle.navigation.limits import MAX_PARTICLES
 from gazelle.navigation.localization.pose_bins import PoseBins
 
 _SIDE = 0.5
@@ -40,6 +43,7 @@ _CONVERGED = 0.5
 """As in the original [m]."""
 
 
+@checked(Error, after=True)
 class ParticleFilter:
     """Particles in the plane.
 
@@ -56,6 +60,9 @@ class ParticleFilter:
         poses: x, y [m] and heading [rad], shape (n, 3).
         weights: They sum up to 1, shape (n,).
         converged: Whether all were within half a metre of their mean after the last resampling.
+
+    Raises:
+        Error: There are no particles, or too many.
     """
 
     def __init__(
@@ -68,6 +75,8 @@ class ParticleFilter:
         fast: float,
         random: np.random.Generator,
     ) -> None:
+        if not 0 < max(most, least) <= MAX_PARTICLES:
+            raise Error(f"a filter has 1 to {MAX_PARTICLES:,} particles, not {least} to {most}")
         self.least, self.most = least, max(most, least)
         self.error, self.quantile = error, quantile
         self.slow, self.fast = slow, fast
@@ -84,9 +93,16 @@ class ParticleFilter:
         self.begin(np.asarray(mean) + noise @ axes.T)
 
     def begin(self, poses: Floats) -> None:
-        """Initialise with these particles, shape (n, 3)."""
-        self.poses = np.ascontiguousarray(poses)
-        self.weights = np.full(len(poses), 1.0 / len(poses))
+        """Initialise with these particles, shape (n, 3).
+
+        Raises:
+            Error: They are of another shape, or too many.
+        """
+        given = np.ascontiguousarray(poses, np.float64)
+        if given.ndim != 2 or given.shape[1] != 3 or not 0 < len(given) <= MAX_PARTICLES:
+            raise Error(f"poses of particles have the shape (n, 3), not {given.shape}")
+        self.poses = given
+        self.weights = np.full(len(given), 1.0 / len(given))
         self._long = self._short = 0.0
         self.converged = False
 

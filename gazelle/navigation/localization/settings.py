@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from gazelle.argument_checks import checked
 from gazelle.errors import Error, did_you_mean
 from gazelle.navigation.localization.odometry_models import check_model
 from gazelle_ros.base.parameter_values import Values, fields_of
@@ -12,6 +13,7 @@ from gazelle_ros.base.parameter_values import Values, fields_of
 LASER_MODELS = ("likelihood_field", "beam", "likelihood_field_prob")
 
 
+@checked(Error)
 @dataclass(frozen=True, slots=True)
 class AmclSettings:
     """Parameters; names and defaults are those of ``amcl``.
@@ -63,11 +65,12 @@ class AmclSettings:
         Raises:
             Error: One is of the wrong kind, or a model is unknown.
         """
-        found = fields_of(cls, values)
-        check_model(found["odom_model_type"])
-        laser = found["laser_model_type"]
+        return cls(**fields_of(cls, values))
+
+    def __post_init__(self) -> None:
+        check_model(self.odom_model_type)
+        laser = self.laser_model_type
         if laser not in LASER_MODELS:
             raise Error(
                 f"the laser model '{laser}' is unknown", hint=did_you_mean(laser, LASER_MODELS)
             )
-        return cls(**found)

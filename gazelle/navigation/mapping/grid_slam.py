@@ -9,17 +9,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
 from gazelle.description import Pose
 from gazelle.description.occupancy import FREE, OCCUPIED, UNKNOWN, OccupancyMap
 from gazelle.errors import Error
 from gazelle.navigation.following import Pose2, wrapped
+from gazelle.navigation.limits import check_maps
 from gazelle.navigation.mapping.scan_matching import ScanMatcher
 from gazelle.navigation.mapping.tiled_maps import SIDE, TiledMaps
 from gazelle.navigation.planners.planar import between, composed, inverse
 from gazelle_ros.base.parameter_values import Values, fields_of
 
 
+@checked(Error)
 @dataclass(frozen=True, slots=True)
 class GmappingSettings:
     """Parameters; names and defaults are those of ``slam_gmapping``."""
@@ -58,20 +61,20 @@ class GmappingSettings:
         Raises:
             Error: One is of the wrong kind, or the map would be none.
         """
-        settings = cls(**fields_of(cls, values))
-        if (
-            not settings.delta > 0.0
-            or settings.xmax <= settings.xmin
-            or settings.ymax <= settings.ymin
-        ):
+        return cls(**fields_of(cls, values))
+
+    def __post_init__(self) -> None:
+        if not self.delta > 0.0 or self.xmax <= self.xmin or self.ymax <= self.ymin:
             raise Error(
                 "a map needs a positive 'delta', and 'xmin' below 'xmax', 'ymin' below 'ymax'"
             )
-        if settings.particles < 1:
+        if self.particles < 1:
             raise Error("'particles' is 1 or more")
-        return settings
+        columns, rows = (self.xmax - self.xmin) / self.delta, (self.ymax - self.ymin) / self.delta
+        check_maps(self.particles, columns, rows)
 
 
+@checked(Error, after=True)
 class GridSlam:
     """Particles with a pose and a map each.
 

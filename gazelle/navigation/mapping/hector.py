@@ -11,11 +11,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
 from gazelle.description import Pose
 from gazelle.description.occupancy import FREE, OCCUPIED, UNKNOWN, OccupancyMap
 from gazelle.errors import Error
 from gazelle.navigation.following import Pose2, wrapped
+from gazelle.navigation.limits import check_maps
 from gazelle.navigation.mapping.scan_matching import ScanMatcher
 from gazelle.navigation.mapping.tiled_maps import SIDE, TiledMaps
 from gazelle.navigation.planners.planar import between, composed, inverse
@@ -25,6 +27,7 @@ _SIGMA, _TURN, _HALVINGS = 0.05, 0.1, 6
 """Of the climb: spread of ends [m²], first turn [rad], and how often steps are halved."""
 
 
+@checked(Error)
 @dataclass(frozen=True, slots=True)
 class HectorSettings:
     """Parameters; names and defaults are those of ``hector_mapping``."""
@@ -49,14 +52,17 @@ class HectorSettings:
         Raises:
             Error: One is of the wrong kind, or the map would be none.
         """
-        settings = cls(**fields_of(cls, values))
-        if not settings.map_resolution > 0.0 or settings.map_size < 1:
+        return cls(**fields_of(cls, values))
+
+    def __post_init__(self) -> None:
+        if not self.map_resolution > 0.0 or self.map_size < 1:
             raise Error("a map needs a positive 'map_resolution' and 'map_size'")
-        if not 0.0 < settings.update_factor_free < 0.5 < settings.update_factor_occupied < 1.0:
+        check_maps(1, self.map_size, self.map_size)
+        if not 0.0 < self.update_factor_free < 0.5 < self.update_factor_occupied < 1.0:
             raise Error("'update_factor_free' is below 0.5, 'update_factor_occupied' above it")
-        return settings
 
 
+@checked(Error, after=True)
 class HectorSlam:
     """A map and a pose, moved from scan to scan.
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
 from gazelle.description import Pose
 from gazelle.description.occupancy import FREE, OCCUPIED, UNKNOWN, OccupancyMap
@@ -30,6 +31,7 @@ _MATCHED = (400.0, 400.0, 2500.0)
 """Inverse variances of poses by matching [1/m²], [1/rad²]: 5 cm and 0.02 rad."""
 
 
+@checked(Error)
 @dataclass(frozen=True, slots=True)
 class KartoSettings:
     """Parameters; names are those of ``slam_karto``, defaults those of its library."""
@@ -54,10 +56,11 @@ class KartoSettings:
         """
         if "delta" in values and "resolution" not in values:
             values = {**values, "resolution": values["delta"]}
-        settings = cls(**fields_of(cls, values))
-        if not settings.resolution > 0.0:
+        return cls(**fields_of(cls, values))
+
+    def __post_init__(self) -> None:
+        if not self.resolution > 0.0:
             raise Error("a map needs a positive 'resolution'")
-        return settings
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,6 +71,7 @@ class _Keyframe:
     laser: Pose2
 
 
+@checked(Error, after=True)
 class KartoSlam:
     """Scans at poses, and what is known of these.
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from gazelle.argument_checks import checked
 from gazelle.errors import Error
 from gazelle_ros.base.parameter_values import Values, fields_of
 
@@ -17,6 +18,7 @@ DEFAULT_RECOVERY = (
 )
 
 
+@checked(Error)
 @dataclass(frozen=True, slots=True)
 class MoveBaseSettings:
     """Names and defaults are those of ``move_base``."""
@@ -44,10 +46,11 @@ class MoveBaseSettings:
         Raises:
             Error: One is of the wrong kind, or the controller would never run.
         """
-        found = fields_of(cls, values)
-        if not found["controller_frequency"] > 0.0:
+        return cls(**fields_of(cls, values))
+
+    def __post_init__(self) -> None:
+        if not self.controller_frequency > 0.0:
             raise Error("'controller_frequency' must be greater than zero")
-        return cls(**found)
 
 
 def recoveries_of(values: Values, settings: MoveBaseSettings) -> list[Mapping[str, Any]]:

@@ -8,7 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
+from gazelle.errors import Error
 from gazelle.navigation.costmap import Costmap
 from gazelle.navigation.following import Pose2, wrapped
 from gazelle.navigation.planners.following_plan import PlanFollower
@@ -53,6 +55,7 @@ class DwaSettings:
         return cls(**fields_of(cls, values))
 
 
+@checked(Error, after=True)
 class DwaPlanner(PlanFollower):
     """Samples velocities that can be had within a period, and takes the best.
 

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Indices
+from gazelle.errors import Error
 from gazelle.navigation.costmap import Costmap
 from gazelle.navigation.costmap.values import NO_INFORMATION
 from gazelle.navigation.following import Pose2
@@ -15,6 +17,7 @@ _PASSED = 1.0
 """Poses before the first one this near to the robot were passed [m]."""
 
 
+@checked(Error, after=True)
 class PlanFollower(LocalPlannerPlugin):
     """Holds a plan and cuts out of it what is near the robot.
 
@@ -33,9 +36,16 @@ class PlanFollower(LocalPlannerPlugin):
         return len(self._plan) > 0
 
     def set_plan(self, plan: Floats) -> bool:
-        """Set a plan in the global frame."""
-        self._plan = np.array(plan, np.float64)
-        return len(plan) > 0
+        """Set a plan in the global frame.
+
+        Raises:
+            Error: It has another shape, or a number that is not finite.
+        """
+        given = np.array(plan, np.float64)
+        if given.ndim != 2 or given.shape[1] != 3 or not np.isfinite(given).all():
+            raise Error(f"a plan is finite poses, shape (n, 3), not of the shape {given.shape}")
+        self._plan = given
+        return len(given) > 0
 
     def goal(self, to_local: Pose2) -> Pose2:
         """Return the end of the plan in the costmap's frame."""

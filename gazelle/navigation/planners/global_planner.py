@@ -8,6 +8,7 @@ from typing import Final
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Floats32
 from gazelle.errors import Error
 from gazelle.navigation.costmap import Costmap
@@ -64,6 +65,7 @@ class GlobalPlannerSettings:
             raise Error(f"'publish_scale' is 1 to 100, not {self.publish_scale}")
 
 
+@checked(Error, after=True)
 class GlobalPlanner(PotentialPlanner):
     """The cheapest path, as ``global_planner`` of ROS finds it.
 

@@ -7,7 +7,9 @@ from typing import Final
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Floats32
+from gazelle.errors import Error
 from gazelle.navigation.costmap import Costmap
 from gazelle.navigation.costmap.values import INSCRIBED, NO_INFORMATION
 from gazelle.navigation.following import Pose2
@@ -23,6 +25,7 @@ _UNKNOWN: Final = 253.0
 NO_PLAN: Final[Floats] = np.zeros((0, 3))
 
 
+@checked(Error, after=True)
 class PotentialPlanner(GlobalPlannerPlugin):
     """Base of planners that descend a potential.
 

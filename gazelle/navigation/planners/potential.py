@@ -141,7 +141,8 @@ class PotentialField:
         for side in range(4):
             move: cython.int = 1 if side < 2 else columns
             other: cython.int = first + (move if side % 2 else -move)
-            if price[other] < _FAR:
+            # The source may be on the outermost row, which has none on its other side.
+            if other >= 0 and other < price.shape[0] and price[other] < _FAR:
                 lists[0, count] = other
                 waiting[other] = 1
                 count += 1
