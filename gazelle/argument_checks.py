@@ -86,7 +86,7 @@ def world_indices(worlds: Any, nworld: int, error: type[Error]) -> Worlds:
 
     Args:
         worlds: Given by a user.
-        nworld: There are so many.
+        nworld: Number of worlds.
         error: Class of the error.
 
     Raises:
@@ -99,9 +99,9 @@ def indices(what: str, selection: Any, count: int, error: type[Error]) -> Indice
     """Return indices of things, shape (n,).
 
     Args:
-        what: They are, for the message.
-        selection: By a user.
-        count: There are so many.
+        what: Name of the items, for the message.
+        selection: Indices of a user.
+        count: Number of items.
         error: Class of the error.
 
     Raises:

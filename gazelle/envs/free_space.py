@@ -89,7 +89,7 @@ class FreeSpace:
         """Return places on a square lattice, shape (n, 2) [m]; about a thousand at most.
 
         Args:
-            margin: They are farther than this from everything [m].
+            margin: Smallest distance from everything [m].
             between: Those in the middles of the squares of the others.
         """
         cell = self._cell

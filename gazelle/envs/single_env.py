@@ -52,7 +52,7 @@ class TaskEnv(gym.Env[Any, Any]):
 
         Args:
             seed: Starts all random numbers over.
-            options: There are none yet.
+            options: None is supported yet.
 
         Raises:
             TaskError: An option that does not exist.

@@ -265,7 +265,7 @@ class JoinedNoise:
     """The noise of sensors with equal parameters, applied at once.
 
     Args:
-        models: They keep what they have in its tables from now on.
+        models: Models that keep their state in its tables from now on.
     """
 
     def __init__(self, models: Sequence[NoiseModel]) -> None:

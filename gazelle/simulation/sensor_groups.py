@@ -54,7 +54,7 @@ class SensorGroup:
     place of its sensors among those that ``update_sensors`` measures.
 
     Args:
-        units: They are awake, due at one time and of one ``SensorUnit.system``.
+        units: Active units, due at one time and of one ``SensorUnit.system``.
         native: Whether the engine may update a kernel.
 
     Attributes:

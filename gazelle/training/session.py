@@ -106,7 +106,7 @@ def train(
         imports: Modules or files to import first, which register tasks; the run remembers them.
         workers: Processes that play rollouts, see `gazelle.training.workers`; the result is the
             same with any number of them, and another than without.
-        ray: They are on the Ray cluster at this address, ``local`` for one on this machine; by
+        ray: Address of the Ray cluster of the workers, ``local`` for one on this machine; by
             default as many as it has processors.
         options: Options of the environment; those that the recipe sets are taken from it.
 

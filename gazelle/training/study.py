@@ -119,7 +119,7 @@ def conduct(
         study: Study.
         table: A ``.csv`` file, made or continued.
         workers: Processes; by default as many as there are processors.
-        ray: They are on the Ray cluster at this address, ``local`` for one on this machine.
+        ray: Address of the Ray cluster of the workers, ``local`` for one on this machine.
         on_row: Called with how many rows there are and how many there will be.
 
     Raises:

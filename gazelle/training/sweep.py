@@ -78,7 +78,7 @@ def sweep(
         out: Folder in which the search's folder, ``TASK-sweep``, is made.
         imports: Modules or files that register the task.
         workers: Number of parallel trainings; None for the plan's.
-        ray: They are on the Ray cluster at this address, ``local`` for one on this machine; None
+        ray: Address of the Ray cluster of the workers, ``local`` for one on this machine; None
             for processes here.
         options: Options of the environment.
 

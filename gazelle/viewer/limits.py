@@ -28,7 +28,7 @@ def check_size(size: tuple[int, int], finer: int = 1) -> None:
 
     Args:
         size: Width and height [pixel].
-        finer: It is drawn so many times larger along each side.
+        finer: Factor of its size along each side while drawing.
 
     Raises:
         Error: It is empty, or has too many pixels.

@@ -70,7 +70,7 @@ class AGVFleetParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has 
 
         Args:
             seed: Starts all random numbers over.
-            options: There are none.
+            options: None is supported.
 
         Raises:
             ClosedEnvError: The environment is closed.

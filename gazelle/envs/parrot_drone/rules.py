@@ -46,8 +46,8 @@ class FlightEnds:
     Attributes:
         outside: The drone left its work space.
         crashed: The sonar sees something too near, or the drone has flipped.
-        arrived: It is so near to the goal that the episode ends.
-        succeeded: It is so near that this is a success.
+        arrived: True if it is so near to the goal that the episode ends.
+        succeeded: True if it is so near that this is a success.
     """
 
     outside: Bools

@@ -58,7 +58,7 @@ class ParticleFilter:
 
     Attributes:
         poses: x, y [m] and heading [rad], shape (n, 3).
-        weights: They sum up to 1, shape (n,).
+        weights: Weights, with a sum of 1, shape (n,).
         converged: Whether all were within half a metre of their mean after the last resampling.
 
     Raises:

@@ -134,7 +134,7 @@ class StageReturns:
         obstacle: Whether other models collide with it.
         ranger: Intensity that rangers report; negative: they do not see it.
         fiducial: Number that fiducial finders read; 0: they do not see it.
-        fiducial_key: They see it only if theirs is the same.
+        fiducial_key: Key of the fiducial finders that see it.
         blob: Whether blob finders see it.
         gripper: Whether grippers can take it.
     """
