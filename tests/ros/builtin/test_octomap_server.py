@@ -286,6 +286,17 @@ def test_a_wall_is_published_on_all_topics(mapping, listen):
     assert got["occupied_cells_vis_array"][-1].markers[3].action == marker.DELETE
 
 
+def test_clouds_that_cannot_be_mapped_in_time_are_left_out(make_node):
+    server = OctomapServer(make_node("mapper"))
+    for x in range(20):
+        server.queue.add(
+            create_cloud_xyz32(std_msgs.msg.Header(frame_id="map"), [(1.0, x + 1.0, 0)])
+        )
+    server.queue.work(server.find, server.use)
+    places = server.map.centers(server.map.occupied)
+    assert np.unique(places[:, 1].round()).tolist() == [16.0, 17.0, 18.0, 19.0, 20.0]
+
+
 def test_limits_of_height_and_services(mapping, make_node):
     made = mapping(pointcloud_max_z=0.3, occupancy_min_z=0.11)
     made.see(lambda: len(made.server.map.codes) > 0)

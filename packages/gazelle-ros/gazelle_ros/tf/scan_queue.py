@@ -20,13 +20,16 @@ T = TypeVar("T")
 class MessageQueue:
     """Keeps messages until they can be used, as a message filter of tf does.
 
+    Args:
+        kept: Messages kept, the newest ones.
+
     Attributes:
         seen: Number of messages received.
         frame: Frame of the last one.
     """
 
-    def __init__(self) -> None:
-        self._waiting: deque[Any] = deque(maxlen=KEPT)
+    def __init__(self, kept: int = KEPT) -> None:
+        self._waiting: deque[Any] = deque(maxlen=kept)
         self._news = threading.Condition()
         self.seen = 0
         self.frame = ""

@@ -78,7 +78,7 @@ def _load(found: NodeArguments) -> int:
             return 0
 
         def follow() -> None:
-            _LOG.warning("%s ends: %s has ended or unloaded it", node.name, manager)
+            _LOG.info("%s ends: %s has ended or unloaded it", node.name, manager)
             stop.set()
 
         loader.load(kind, [each for each in rest if each != _NO_BOND], follow)

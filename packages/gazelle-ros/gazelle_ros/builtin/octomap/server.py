@@ -50,7 +50,7 @@ class OctomapServer(StampedWork[StampedTransform]):
 
     def __init__(self, node: Node) -> None:
         self.settings = OctomapSettings.read(node)
-        super().__init__(node, {self.settings.frame_id})
+        super().__init__(node, {self.settings.frame_id}, _QUEUE)
         self.map = VoxelMap(self.settings.resolution, self.settings.sensor)
         self._stamp = Time(0)
         self._lock = threading.RLock()

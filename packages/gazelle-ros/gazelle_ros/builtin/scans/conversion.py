@@ -13,7 +13,7 @@ from gazelle_ros.builtin.on_demand import OnDemandOutputs
 from gazelle_ros.node import Node
 from gazelle_ros.tf import FrameTree, StampedTransform, TransformException
 from gazelle_ros.tf.listening import FrameListener
-from gazelle_ros.tf.scan_queue import MessageQueue
+from gazelle_ros.tf.scan_queue import KEPT, MessageQueue
 
 _LOG = logging.getLogger("gazelle.ros.scans")
 _PATIENCE_S = 5.0
@@ -30,15 +30,16 @@ class StampedWork(ABC, Generic[Found]):
     Args:
         node: On the graph.
         frames: Frames that transforms are needed to; without any, no transform is listened to.
+        kept: Messages that wait, the newest ones.
 
     Attributes:
         queue: Messages that wait for their transforms.
         tree: Frames that are known.
     """
 
-    def __init__(self, node: Node, frames: Collection[str]) -> None:
+    def __init__(self, node: Node, frames: Collection[str], kept: int = KEPT) -> None:
         self._node = node
-        self.queue = MessageQueue()
+        self.queue = MessageQueue(kept)
         self.tree = FrameTree()
         if frames:
             self.tree = FrameListener(node).tree
