@@ -58,6 +58,7 @@ class StepLoop:
 
     Attributes:
         cut: Whether the last steps ended for the sake of others, with nothing due.
+        spent: Wall time of all steps so far, with sensors and plugins [s].
         followers: Called after every step, before sensors measure.
         in_step: Systems that act within steps.
     """
@@ -84,6 +85,7 @@ class StepLoop:
         self._most = 1
         self._requested = -math.inf  # wall time of the last request [s]
         self.cut = False
+        self.spent = 0.0
         self.followers: list[Callable[[], None]] = []
         self._listeners: list[Callable[[], None]] = []
 
@@ -127,7 +129,9 @@ class StepLoop:
                 raise SimulationError(CLOSED)
             if remaining <= 0 or stop():
                 return
+            begin = time.perf_counter()
             remaining -= self._advance(remaining)
+            self.spent += time.perf_counter() - begin
             if remaining > 0 and lock.waiting:
                 self.cut = False
                 self._shorten()

@@ -34,6 +34,8 @@ from gazelle.viewer.page.property_panel import PropertyPanel
 from gazelle.viewer.page.run_controls import RunControls
 from gazelle.viewer.page.selection_box import SelectionBox
 from gazelle.viewer.page.server import PageServer
+from gazelle.viewer.page.speed_plots import SpeedPlots
+from gazelle.viewer.page.time_log import TimeLog
 from gazelle.viewer.page.viewpoints import AROUND, Viewpoints, overview
 from gazelle.viewer.page.world_layer import LOOKS, ShapeLayer
 from gazelle_ros.base.closing import Closeable
@@ -152,6 +154,11 @@ class LiveView(Closeable):
             left = page.gui.add_panel()
             with left.add_tab("World"):
                 tree, properties = EntityTree(context, self._server), PropertyPanel(context)
+            with left.add_tab("Speed"):
+                speed = SpeedPlots(context)
+            if not only_looking:
+                with left.add_tab("Log"):
+                    steering.append(TimeLog(context))
             left.dock_left()
             left.set_width(_LEFT)
             motions = MotionLayer(context)
@@ -181,7 +188,7 @@ class LiveView(Closeable):
             self._offer()
             self._layers: tuple[PageLayer, ...] = (
                 controls, *panels, shapes, tools, *steering, *self._optional.values(), self._plots,
-                tree, properties, SelectionBox(context), views,
+                tree, properties, SelectionBox(context), views, speed,
             )  # fmt: skip
             self._changed = False
             events = simulation.events
