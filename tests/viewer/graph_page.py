@@ -1,6 +1,6 @@
 """The page of a graph in a browser, with a robot of one box, for tests."""
 
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 
 import numpy as np
 
@@ -97,12 +97,13 @@ class TalkingGraph:
 
 
 @contextmanager
-def graph_page(size=(900, 480), **options):
-    """Open the page of a graph of its own."""
-    with Master("127.0.0.1", 0) as master:
-        node = Node("talker", master_uri=master.uri, clock=WallClock())
+def graph_page(size=(900, 480), master_uri=None):
+    """Open the page of the graph of a master, by default of its own."""
+    with nullcontext() if master_uri else Master("127.0.0.1", 0) as master:
+        uri = master_uri or master.uri
+        node = Node("talker", master_uri=uri, clock=WallClock())
         try:
-            with GraphView(master.uri, **options) as view, opened(view.url, size) as page:
+            with GraphView(uri) as view, opened(view.url, size) as page:
                 yield TalkingGraph(view, node, page)
         finally:
             node.close()
