@@ -57,7 +57,17 @@ model ( name "puck" size [.1 .1 1] pose [1 0 0 0] color "red" gripper_return 1 f
 PACKAGES = {
     name: f"gazelle.{name}"
     for name in (
-        *("builders", "clients", "control", "description", "engines", "envs", "formats"),
+        *(
+            "assets",
+            "bridges",
+            "builders",
+            "clients",
+            "control",
+            "description",
+            "engines",
+            "envs",
+            "formats",
+        ),
         *("kinematics", "navigation", "planning", "rendering", "sensors", "simulation"),
         *("stage", "training", "viewer"),
     )
@@ -65,6 +75,8 @@ PACKAGES = {
     "gazelle": "gazelle",
     "actions": "gazelle_ros.actions",
     "launch": "gazelle_ros.launch",
+    "messages": "gazelle_ros.messages",
+    "robot": "gazelle_ros.robot",
     "bags": "gazelle_ros.bags",
     "frames": "gazelle_ros.tf",
     **{
@@ -369,6 +381,7 @@ TABLE: dict[str, Callable[[Samples], Any]] = {
     ),
     "Layer": lambda s: costmap.StaticLayer(),
     "Costmap": lambda s: costmap.Costmap([], costmap.footprint_of(), width=1.0, height=1.0),
+    "JointTree": lambda s: {},
     "Values": lambda s: {},
     "GlobalPlannerPlugin": lambda s: planners.NavfnPlanner("a", TABLE["Costmap"](s), {}),
     "LocalPlannerPlugin": lambda s: planners.DwaPlanner("a", TABLE["Costmap"](s), {}, 0.1),

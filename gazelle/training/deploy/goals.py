@@ -7,6 +7,7 @@ import math
 from dataclasses import dataclass
 from pathlib import Path
 
+from gazelle.argument_checks import checked
 from gazelle.errors import FormatError
 
 
@@ -35,6 +36,7 @@ class GoalResult:
     """Distance of the robot from it then [m]."""
 
 
+@checked(FormatError)
 def read_goals(file: Path) -> list[GoalPlace]:
     """Read goals from a text file: one ``x, y`` [m] a line, with an optional frame.
 

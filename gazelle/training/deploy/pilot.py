@@ -10,6 +10,7 @@ from collections import deque
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from gazelle.argument_checks import checked
 from gazelle.errors import TaskError
 from gazelle.training.deploy.goals import GoalPlace, GoalResult
 from gazelle.training.deploy.policies import Decision, Policy
@@ -55,6 +56,7 @@ class Tick:
     """Set where a goal came to its end at this moment."""
 
 
+@checked(TaskError, after=True)
 class Pilot:
     """Follows a policy to one goal after another.
 

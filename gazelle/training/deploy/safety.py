@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.envs.contract import PolicyContract
 from gazelle.errors import TaskError
 from gazelle.training.deploy.sensing import ScanReading
@@ -32,6 +33,7 @@ class VelocityCommand:
 STAND = VelocityCommand()
 
 
+@checked(TaskError, after=True)
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SafetyLimits:
     """Limits that hold whatever the policy wants.

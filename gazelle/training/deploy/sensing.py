@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Bools, Floats, Floats32
 from gazelle.envs.contract import PolicyContract, ScanRule
 from gazelle.errors import TaskError
@@ -21,6 +22,7 @@ _KINDS = {
 }
 
 
+@checked(TaskError, after=True)
 @dataclass(frozen=True, slots=True)
 class ScanReading:
     """One turn of a lidar, as sensor_msgs/LaserScan has it."""

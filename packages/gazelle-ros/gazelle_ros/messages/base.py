@@ -5,7 +5,7 @@ from __future__ import annotations
 import struct
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol, Self, cast
 
-from gazelle_ros.messages.errors import SerializationError
+from gazelle_ros.messages.errors import MessageException, SerializationError
 
 if TYPE_CHECKING:
     from gazelle_ros.messages.spec import MessageSpec
@@ -161,7 +161,9 @@ class ServiceDefinition:
 def _compile(message: Message, method: str) -> Any:
     from gazelle_ros.messages.compile import compiled
 
-    owner = next(each for each in type(message).__mro__ if "_spec" in each.__dict__)
+    owner = next((each for each in type(message).__mro__ if "_spec" in each.__dict__), None)
+    if owner is None:
+        raise MessageException("a message is of a class with a definition; load_message has those")
     return compiled(owner, method)
 
 

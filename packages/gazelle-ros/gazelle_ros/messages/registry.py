@@ -236,10 +236,16 @@ def register(package: str, name: str, text: str, kind: str | None = None) -> Non
         forget()
 
 
+_TABLES = {"msg": "messages", "srv": "services", "action": "actions"}
+
+
 def definitions(kind: str = "msg") -> list[str]:
     """Return full names of all known types of a kind: ``msg``, ``srv`` or ``action``, sorted.
 
     Searches all packages on ROS_PACKAGE_PATH.
+
+    Raises:
+        UnknownTypeError: There is no such kind.
     """
     packages = {*_registered, *bundled_packages()}
     if search.package_path():
@@ -250,9 +256,14 @@ def definitions(kind: str = "msg") -> list[str]:
 
 
 def package_names(package: str, kind: str = "msg") -> list[str]:
-    """Return names, without the package, of a package's types of a kind, sorted."""
-    which = {"msg": "messages", "srv": "services", "action": "actions"}[kind]
-    return sorted({name for source in _sources(package) for name in getattr(source, which)})
+    """Return names, without the package, of a package's types of a kind, sorted.
+
+    Raises:
+        UnknownTypeError: There is no such kind.
+    """
+    if kind not in _TABLES:
+        raise UnknownTypeError(f"'{kind:.60}' is none of the kinds {', '.join(_TABLES)}")
+    return sorted({name for source in _sources(package) for name in getattr(source, _TABLES[kind])})
 
 
 def class_from_text(name: str, text: str) -> type[Message]:

@@ -79,7 +79,7 @@ def read_joints(text: str) -> JointTree:
     """
     try:
         root = parse_element(text.encode(), "robot_description")
-    except LaunchError as error:
+    except (LaunchError, UnicodeEncodeError) as error:
         raise RosError(f"the robot description is not XML: {error}") from None
     if root.tag != "robot":
         raise RosError(f"the robot description is a <{root.tag}>, not a <robot>")
