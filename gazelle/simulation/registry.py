@@ -78,8 +78,8 @@ def find(plugin: description.Plugin) -> type[BasePlugin] | None:
     elif row is None and stem not in _missing:
         _missing.add(stem)
         hint = (
-            f"{_nearest(f'lib{stem}.so')}'gazelle plugins' lists those that are, and docs/reference/plugins.md, "
-            "'Your own', shows how to write it in Python"
+            f"{_nearest(f'lib{stem}.so')}'gazelle plugins' lists those that are, and docs/how-to/write-plugin.md "
+            "shows how to write it in Python"
         )
         _warn(plugin, f" is not supported and is left out; {hint}")
     return None

@@ -93,7 +93,7 @@ def test_gazelle_needs_no_entry_points_of_its_own_but_for_rooms_above_those_that
     text = (Path(__file__).parents[2] / "pyproject.toml").read_text(encoding="utf-8")
     points = tomllib.loads(text)["project"]["entry-points"]
     rooms = {value.split(".")[1] for group in points.values() for value in group.values()}
-    assert rooms == {"assets", "drop_in", "stage"}
+    assert rooms == {"assets", "drop_in", "stage", "viewer"}
 
 
 def test_a_row_is_all_that_a_plugin_needs(monkeypatch):
