@@ -24,6 +24,7 @@ from gazelle.viewer import LiveView  # noqa: E402
 
 IMAGES = ROOT / "docs" / "images"
 FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+NOTICES = ".mantine-Notifications-root { display: none }"  # of a browser without a graphics card
 
 
 class Running:
@@ -70,7 +71,7 @@ def main() -> None:
     program = shutil.which("chromium") or "chromium"
     with sync_playwright() as player:
         browser = player.chromium.launch(executable_path=program, args=FLAGS)
-        page = browser.new_page(viewport={"width": 1100, "height": 700})
+        page = browser.new_page(viewport={"width": 1400, "height": 900})
         page.goto(view.url)
         page.wait_for_selector("canvas")
         page.get_by_label("Lidar rays").wait_for()
@@ -79,10 +80,11 @@ def main() -> None:
             print(f"one looks: {100 * (cost() - alone):.1f} % of a core")
         page.get_by_label("Lidar rays").click()
         page.get_by_label("Names").click()
+        page.locator("[data-name=turtlebot3_burger]").click()
+        page.get_by_label("Gizmo").click()
+        page.get_by_role("button", name="pause").scroll_into_view_if_needed()
         time.sleep(8.0)
-        page.mouse.click(288, 100)  # the notice of a browser without a graphics card
-        time.sleep(4.0)
-        page.screenshot(path=IMAGES / "live.png")
+        page.screenshot(path=IMAGES / "live.png", style=NOTICES)
         browser.close()
     view.close()
     running.close()

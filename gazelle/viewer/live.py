@@ -24,6 +24,7 @@ from gazelle.viewer.page.grid_layer import GridLayer
 from gazelle.viewer.page.insertion import InsertTools
 from gazelle.viewer.page.joint_axis_layer import JointAxisLayer
 from gazelle.viewer.page.joint_sliders import JointSliders
+from gazelle.viewer.page.light_layer import LightLayer
 from gazelle.viewer.page.mass_layers import MassLayer
 from gazelle.viewer.page.model_tools import ModelTools
 from gazelle.viewer.page.motion_layer import MotionLayer
@@ -175,6 +176,7 @@ class LiveView(Closeable):
                 "Inertias": inertias,
                 "Contacts": ContactLayer(context),
                 "Forces": ContactLayer(context, forces=True),
+                "Lights": LightLayer(context),
                 "Lidar rays": RayLayer(context),
                 "Frusta": FrustumLayer(context),
                 "Cameras": CameraInsets(context),

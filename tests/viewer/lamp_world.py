@@ -3,7 +3,7 @@
 LAMP_WORLD = """
 <sdf version="1.6"><world name="room">
 <light name="sun" type="directional"><direction>-0.3 0.2 -1</direction></light>
-<light name="bulb" type="point"><pose>1 1 2 0 0 0</pose><diffuse>1 1 1 1</diffuse></light>
+<light name="bulb" type="point"><pose>0.3 0.3 1.5 0 0 0</pose><diffuse>1 1 1 1</diffuse></light>
 <model name="ground"><static>true</static><link name="l">
  <collision name="c"><geometry><plane><normal>0 0 1</normal><size>3 3</size></plane></geometry></collision>
  <visual name="v"><geometry><plane><normal>0 0 1</normal><size>3 3</size></plane></geometry></visual></link></model>

@@ -76,6 +76,7 @@ COLORS = {
     "Inertias": lambda r, g, b: (b > g + 25) & (r > g + 10) & (b > r),
     "Contacts": lambda r, g, b: (b > r + 80) & (b > g + 50),
     "Forces": lambda r, g, b: (r > g + 80) & (abs(g - b) < 12) & (g > 30),
+    "Lights": lambda r, g, b: (r > b + 90) & (g > b + 60),
     "Lidar rays": lambda r, g, b: (b > r + 60) & (g > r + 25),
     "Frusta": lambda r, g, b: (g > r + 60) & (b > r + 60),
     "Collisions": lambda r, g, b: (r > g + 40) & (g > b + 25),

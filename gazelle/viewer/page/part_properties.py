@@ -27,12 +27,14 @@ class PartProperty:
         read: Returns the present value; called between two steps.
         write: Sets it; None if it cannot be changed.
         step: Of a number, one click.
+        decimals: Of a number, at most.
     """
 
     label: str
     read: Callable[[], Value]
     write: Callable[[Any], None] | None = None
     step: float = 0.01
+    decimals: int = 12
 
 
 def properties_of(context: PageContext, part: ScenePart) -> Iterator[PartProperty]:
@@ -62,6 +64,7 @@ def _vector(
     read: Callable[[], Sequence[float]],
     write: Callable[[Any], None],
     step: float = 0.1,
+    decimals: int = 4,
 ) -> Iterator[PartProperty]:
     """Yield the components of a vector; a change of one sets them all."""
 
@@ -77,7 +80,7 @@ def _vector(
         return put
 
     for number, label in enumerate(labels.split(", ")):
-        yield PartProperty(label, component(number), setter(number), step)
+        yield PartProperty(label, component(number), setter(number), step, decimals)
 
 
 def _of_world(context: PageContext) -> Iterator[PartProperty]:
@@ -275,7 +278,7 @@ def _parameter(
     if flag:
         yield PartProperty(labels, lambda: row()[0] > 0.5, write)
     elif count > 1:
-        yield from _vector(labels, row, write, step)
+        yield from _vector(labels, row, write, step, decimals=12)
     elif math.isfinite(first[0]):
         yield PartProperty(labels, lambda: row()[0], write, step)
     else:

@@ -51,7 +51,7 @@ class _Field:
         self.what = what
         self.shown.label, self.shown.visible = what.label, True
         if isinstance(value, float):
-            self.shown.precision = digits = _decimals(value)
+            self.shown.precision = digits = min(_decimals(value), what.decimals)
             self.shown.step = min(what.step, 10.0 ** (2 - digits))
         self.send(value)
 
