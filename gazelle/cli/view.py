@@ -7,7 +7,7 @@ machine.
 
 A file stands still until it is started on the page. Of a graph the page shows
 robots (robot_description and tf), scans, point clouds, maps, paths, poses,
-markers and images.
+markers and images, and has the tools of RViz and the panels of rqt.
 """  # noqa: D205  # this is the text of --help
 
 from __future__ import annotations

@@ -85,6 +85,19 @@ def test_a_display_has_a_status(graph):
     until(lambda: "/lost" not in graph.view._status.content)
 
 
+def test_frames_are_axes_with_names(graph):
+    before = graph.pixels()
+    graph.page.get_by_role("checkbox", name="Frames").click()
+    frames = graph.view._displays._frames
+    until(lambda: {"map", "odom", "laser"} <= set(frames._labels))
+    assert frames._labels["laser"].position.tolist() == [1.0, 0.0, 0.0]
+    number = frames._names.index("laser")
+    assert frames._axes.batched_positions[number].tolist() == [1.0, 0.0, 0.0]
+    until(lambda: (np.abs(graph.pixels() - before).max(axis=-1) > 60).sum() > 100)
+    graph.page.get_by_role("checkbox", name="Frames").click()
+    until(lambda: frames._axes is None)
+
+
 def test_the_fixed_frame_is_chosen_on_the_page(graph):
     graph.choose("Fixed frame", "laser")
     until(lambda: "fixed frame **laser**" in graph.view._status.content)

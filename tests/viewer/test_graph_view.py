@@ -9,6 +9,7 @@ pytest.importorskip("viser", reason="the extra 'web' is not installed")
 
 from PIL import Image as Pictures
 
+from gazelle.errors import Error
 from gazelle.viewer.graph import GraphView
 from gazelle.viewer.graph.drawing import points_of, rainbow
 from gazelle.viewer.graph.motions import motion_of, robot_of
@@ -367,6 +368,21 @@ def test_a_bad_message_does_not_end_the_view(node, view, monkeypatch):
     until(lambda: "⚠ /image: " in view._status.content)
     until(lambda: "fixed frame **map**" in view._status.content)
     assert view._thread.is_alive()
+
+
+def test_an_unknown_layout_or_panel_is_refused(view, tmp_path, monkeypatch):
+    monkeypatch.setattr(view._layouts._files, "folder", tmp_path)
+    (tmp_path / "robot.yaml").write_text("fixed_frame: /odom\ncamera: [1]\npanels: 3\n")
+    view.load_layout("robot")
+    assert view._context.requested_frame == "odom"
+    for name, text in (("robt", "did you mean 'robot'"), ("../robot", "there is no layout")):
+        with pytest.raises(Error, match=text):
+            view.load_layout(name)
+    (tmp_path / "list.yaml").write_text("- 1")
+    with pytest.raises(Error, match="is no mapping"):
+        view.load_layout("list")
+    with pytest.raises(Error, match="did you mean 'Plot'"):
+        view.open_panel("Plod")
 
 
 def test_it_leaves_the_graph_and_gives_the_port_back(master, node):

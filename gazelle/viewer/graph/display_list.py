@@ -11,7 +11,10 @@ from gazelle.array_types import Floats
 from gazelle.errors import Error
 from gazelle.viewer.graph.context import GraphContext
 from gazelle.viewer.graph.display import KINDS, TopicDisplay
+from gazelle.viewer.graph.frames import FrameAxes
 from gazelle.viewer.graph.robots import DescribedRobot
+
+_FRAMES = "frames"  # key of a layout; topics begin with a slash
 
 
 class DisplayList:
@@ -32,6 +35,8 @@ class DisplayList:
         self._refused: dict[str, tuple[str, str]] = {}
         self._wanted: dict[str, Any] = {}
         self._folder = context.gui.add_folder("Displays")
+        with self._folder:
+            self._frames = FrameAxes(context)
 
     @property
     def faults(self) -> list[str]:
@@ -68,11 +73,14 @@ class DisplayList:
     @property
     def settings(self) -> dict[str, dict[str, Any]]:
         """Settings of the displays, for a saved layout."""
-        return {topic: each.settings for topic, each in self.topics.items()}
+        frames = {_FRAMES: {"shown": self._frames.box.value}}
+        return frames | {topic: each.settings for topic, each in self.topics.items()}
 
     def restore(self, settings: Mapping[str, Any]) -> None:
         """Take the settings of a saved layout, those of topics that are not there yet later."""
         self._wanted = dict(settings)
+        frames = self._wanted.pop(_FRAMES, None)
+        self._frames.box.value = isinstance(frames, dict) and frames.get("shown") is True
         for topic in tuple(self.topics):
             self._restore(topic)
 
@@ -104,6 +112,7 @@ class DisplayList:
         fixed = self._context.fixed
         for display in self.topics.values():
             display.draw()
+        self._frames.draw(fixed)
         for robot in self.robots.values():
             robot.show(self._context.tree, fixed)
         for display in self.topics.values():

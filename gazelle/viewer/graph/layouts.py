@@ -124,7 +124,7 @@ class LayoutControls:
             Error: There is no such layout, or it cannot be read.
         """
         layout = self._files.load(name)
-        self._context.requested_frame = str(layout.get("fixed_frame") or "")
+        self._context.requested_frame = str(layout.get("fixed_frame") or "").lstrip("/")
         self._displays.restore(_mapping(layout.get("displays")))
         self._panels.restore(_mapping(layout.get("panels")))
         camera = _mapping(layout.get("camera"))
