@@ -7,11 +7,11 @@ from numpy.typing import NDArray
 
 from gazelle_ros.base.array_types import Bools as Bools  # noqa: PLC0414  # both are passed on
 from gazelle_ros.base.array_types import Floats as Floats  # noqa: PLC0414
+from gazelle_ros.base.array_types import Ints64 as Ints64  # noqa: PLC0414
 
 Floats32 = NDArray[np.float32]
 Bytes = NDArray[np.uint8]
 Ints32 = NDArray[np.int32]
-Ints64 = NDArray[np.int64]
 UInts64 = NDArray[np.uint64]
 
 Indices = NDArray[np.intp]

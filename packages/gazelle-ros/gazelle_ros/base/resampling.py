@@ -8,9 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle_ros.base.array_types import Floats
-
-Pixels = NDArray[Any]
+from gazelle_ros.base.array_types import Floats, Pixels
 
 _CUBIC = -0.75
 """Slope of the cubic kernel at a distance of one pixel."""

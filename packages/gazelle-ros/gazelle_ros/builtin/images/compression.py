@@ -8,15 +8,14 @@ from types import ModuleType
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle_ros.base.array_types import Pixels
 from gazelle_ros.base.errors import RosError, did_you_mean
 from gazelle_ros.builtin.tuned_settings import tunable
 from gazelle_ros.compat.cv_bridge.core import CvBridge
 from gazelle_ros.compat.cv_bridge.encodings import CvBridgeError, Encoding, encoding_of
 from gazelle_ros.msgs import sensor_msgs
 
-Pixels = NDArray[Any]
 _FORMATS = ("jpeg", "png")
 _GREY_MODES = {"L": "u1", "I;16": "u2"}
 

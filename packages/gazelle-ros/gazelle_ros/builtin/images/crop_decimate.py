@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from gazelle_ros.base.resampling import Interpolation, Pixels, resize
+from gazelle_ros.base.array_types import Pixels
+from gazelle_ros.base.resampling import Interpolation, resize
 from gazelle_ros.builtin.images.conversion import (
     QUEUE,
     TRANSPORT_PARAMETERS,

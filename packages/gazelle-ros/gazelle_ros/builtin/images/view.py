@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gazelle_ros.base.resampling import Pixels
+from gazelle_ros.base.array_types import Pixels
 from gazelle_ros.builtin.arguments import run_node
 from gazelle_ros.builtin.images.conversion import TRANSPORT_PARAMETERS, ImageConversion
 from gazelle_ros.builtin.parameters import settings_of

@@ -5,15 +5,15 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle_ros.base.array_types import Bools
-from gazelle_ros.builtin.octomap.morton import DEPTH, Codes
+from gazelle_ros.base.array_types import Bools, Ints64
+from gazelle_ros.builtin.octomap.morton import DEPTH
 
 _FREE, _OCCUPIED, _INNER = 1, 2, 3
 _CHILDREN = 8
 _NODE = np.dtype([("value", "<f4"), ("children", "u1")])
 
 
-def binary_tree(codes: Codes, occupied: Bools) -> bytes:
+def binary_tree(codes: Ints64, occupied: Bools) -> bytes:
     """Return which cells are occupied and which free: two bytes for each inner node.
 
     Eight cells of the same kind are one of twice the size.
@@ -23,7 +23,7 @@ def binary_tree(codes: Codes, occupied: Bools) -> bytes:
         occupied: Shape (n,).
     """
     leaves, kinds = codes, np.where(occupied, _OCCUPIED, _FREE)
-    inner: Codes = np.zeros(0, np.int64)
+    inner: Ints64 = np.zeros(0, np.int64)
     depths, starts, words = [], [], []
     for depth in range(DEPTH - 1, -1, -1):
         same, pruned, pruned_kinds = _groups(leaves, kinds)
@@ -40,7 +40,7 @@ def binary_tree(codes: Codes, occupied: Bools) -> bytes:
     return np.concatenate(words)[order].astype("<u2").tobytes()
 
 
-def full_tree(codes: Codes, values: NDArray[np.float32]) -> bytes:
+def full_tree(codes: Ints64, values: NDArray[np.float32]) -> bytes:
     """Return the log odds of all nodes, each with the children that it has; inner nodes have the greatest.
 
     Args:
@@ -62,7 +62,7 @@ def full_tree(codes: Codes, values: NDArray[np.float32]) -> bytes:
     return np.concatenate(nodes)[order].tobytes()
 
 
-def _groups(leaves: Codes, kinds: NDArray[np.int64]) -> tuple[Bools, Codes, NDArray[np.int64]]:
+def _groups(leaves: Ints64, kinds: Ints64) -> tuple[Bools, Ints64, Ints64]:
     """Return whether a leaf is one of eight of the same kind; those eight as one leaf, and its kind."""
     parents, first, counts = np.unique(leaves >> 3, return_index=True, return_counts=True)
     if not len(leaves):

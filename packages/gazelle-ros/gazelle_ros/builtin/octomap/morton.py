@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-Codes = NDArray[np.int64]
+from gazelle_ros.base.array_types import Ints64
 
 DEPTH = 16
 """Levels of the tree: keys have as many bits."""
@@ -21,7 +20,7 @@ _STEPS = (
 _WHOLE = 0x1FFFFF
 
 
-def encode(keys: Codes) -> Codes:
+def encode(keys: Ints64) -> Ints64:
     """Return the codes of keys, shape (n,); x counts least.
 
     Args:
@@ -33,7 +32,7 @@ def encode(keys: Codes) -> Codes:
     return wide[:, 0] | wide[:, 1] << 1 | wide[:, 2] << 2
 
 
-def decode(codes: Codes) -> Codes:
+def decode(codes: Ints64) -> Ints64:
     """Return the keys of codes, shape (n, 3)."""
     wide = np.stack((codes, codes >> 1, codes >> 2), axis=-1) & _STEPS[-1][1]
     masks = [mask for _, mask in _STEPS[-2::-1]] + [_WHOLE]

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from gazelle_ros.base.array_types import Floats
-
-Cells = NDArray[np.int64]
+from gazelle_ros.base.array_types import Floats, Ints64
 
 _MOST_MARKED = 1 << 27
 """Cells around all rays that are marked one by one; more are collected."""
 
 
-def crossed(origin: Floats, ends: Floats) -> Cells:
+def crossed(origin: Floats, ends: Floats) -> Ints64:
     """Return the cells that rays cross before the one of their end, each once; shape (n, 3).
 
     Args:
@@ -27,20 +24,20 @@ def crossed(origin: Floats, ends: Floats) -> Cells:
     size = np.maximum(first, last.max(axis=0)) - low + 1
     found = _Marks(size) if size.prod() <= _MOST_MARKED else _Collection()
     _follow(origin, ends, np.array([size[1] * size[2], size[2], 1]), low, found)
-    cells: Cells = np.stack(np.unravel_index(found.indices(), size), axis=-1) + low
+    cells: Ints64 = np.stack(np.unravel_index(found.indices(), size), axis=-1) + low
     return cells
 
 
 class _Marks:
     """Cells of a box, marked."""
 
-    def __init__(self, size: Cells) -> None:
+    def __init__(self, size: Ints64) -> None:
         self._marked = np.zeros(int(size.prod()), np.bool_)
 
-    def add(self, indices: Cells) -> None:
+    def add(self, indices: Ints64) -> None:
         self._marked[indices] = True
 
-    def indices(self) -> Cells:
+    def indices(self) -> Ints64:
         return np.flatnonzero(self._marked)
 
 
@@ -48,17 +45,17 @@ class _Collection:
     """Cells of a box that is too large to be marked."""
 
     def __init__(self) -> None:
-        self._parts: list[Cells] = []
+        self._parts: list[Ints64] = []
 
-    def add(self, indices: Cells) -> None:
+    def add(self, indices: Ints64) -> None:
         self._parts.append(np.unique(indices))
 
-    def indices(self) -> Cells:
+    def indices(self) -> Ints64:
         return np.unique(np.concatenate(self._parts or [np.zeros(0, np.int64)]))
 
 
 def _follow(
-    origin: Floats, ends: Floats, strides: Cells, low: Cells, found: _Marks | _Collection
+    origin: Floats, ends: Floats, strides: Ints64, low: Ints64, found: _Marks | _Collection
 ) -> None:
     """Add the cells of all rays, one after another along each, all rays at once."""
     first = np.floor(origin)

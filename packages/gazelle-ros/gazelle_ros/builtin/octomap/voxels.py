@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle_ros.base.array_types import Bools, Floats
+from gazelle_ros.base.array_types import Bools, Floats, Ints64
 from gazelle_ros.base.errors import RosError
-from gazelle_ros.builtin.octomap.morton import DEPTH, ORIGIN, Codes, decode, encode
+from gazelle_ros.builtin.octomap.morton import DEPTH, ORIGIN, decode, encode
 from gazelle_ros.builtin.octomap.rays import crossed
 
 
@@ -59,7 +59,7 @@ class VoxelMap:
 
     def __init__(self, resolution: float, sensor: HitModel) -> None:
         self.resolution = resolution
-        self.codes: Codes = np.zeros(0, np.int64)
+        self.codes: Ints64 = np.zeros(0, np.int64)
         self.values: NDArray[np.float32] = np.zeros(0, np.float32)
         self._sensor = sensor
         self._hit, self._miss = _log_odds(sensor.hit), _log_odds(sensor.miss)
@@ -128,14 +128,14 @@ class VoxelMap:
         found[occupied] = alone
         return found
 
-    def _ends(self, ends: Floats) -> tuple[Codes, Floats]:
+    def _ends(self, ends: Floats) -> tuple[Ints64, Floats]:
         """Return the cells of ends within the tree, and an end in each."""
         keys = np.floor(ends).astype(np.int64) + ORIGIN
         inside = ((keys >= 0) & (keys < 1 << DEPTH)).all(axis=1)
         codes, first = np.unique(encode(keys[inside]), return_index=True)
         return codes, ends[inside][first]
 
-    def _update(self, codes: Codes, change: float) -> None:
+    def _update(self, codes: Ints64, change: float) -> None:
         place, known = np.searchsorted(self.codes, codes), _contains(self.codes, codes)
         changed = np.clip(self.values[place[known]] + change, self._least, self._most)
         self.values[place[known]] = changed
@@ -144,7 +144,7 @@ class VoxelMap:
         self.values = np.insert(self.values, fresh, np.float32(change))
 
 
-def _contains(codes: Codes, wanted: Codes) -> Bools:
+def _contains(codes: Ints64, wanted: Ints64) -> Bools:
     """Return whether ascending codes contain others, shape (wanted,)."""
     place = np.searchsorted(codes, wanted)
     found: Bools = place < len(codes)

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
-from numpy.typing import NDArray
 
-Pixels = NDArray[Any]
+from gazelle_ros.base.array_types import Pixels
 
 
 def demosaic(image: Pixels, order: str) -> Pixels:

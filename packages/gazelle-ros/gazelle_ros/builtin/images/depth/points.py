@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gazelle_ros.base.array_types import Floats
-from gazelle_ros.base.resampling import Interpolation, Pixels, resize
+from gazelle_ros.base.array_types import Floats, Pixels
+from gazelle_ros.base.resampling import Interpolation, resize
 from gazelle_ros.builtin.images.conversion import (
     QUEUE,
     TRANSPORT_PARAMETERS,
