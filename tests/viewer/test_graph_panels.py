@@ -265,11 +265,13 @@ def test_joints_are_moved_by_trajectories(graph):
     actual = message("trajectory_msgs/JointTrajectoryPoint", positions=[0.25, -0.5])
     graph.say("/arm/state", "control_msgs/JointTrajectoryControllerState",
               joint_names=["shoulder", "elbow"], actual=actual)  # fmt: skip
-    with opened_panel(graph, "Joint trajectory"):
+    until(lambda: not graph.view._context.robots)
+    with opened_panel(graph, "Joint trajectory") as panel:
         graph.choose("Controller", "/arm")
         until(
             lambda: graph.box("elbow").count() == 1 and graph.box("elbow").input_value() == "-0.5"
         )
+        until(lambda: panel._publisher.num_connections)
         graph.page.get_by_label("Send").click()
         graph.fill("shoulder", "1.25")
         until(lambda: len(got) >= 1)

@@ -101,6 +101,9 @@ def test_robots_stand_where_tf_says(node, view):
     node.set_param("/robot_description", "<robot")
     view._discover()
     assert "robot_description" in view._status.content
+    node.delete_param("/robot_description")
+    view._discover()
+    assert "robot_description" not in view._status.content
 
 
 def test_a_robot_that_tf_does_not_know_is_named(node, view):

@@ -34,6 +34,7 @@ class DisplayList:
         self.robots = context.robots
         self._refused: dict[str, tuple[str, str]] = {}
         self._wanted: dict[str, Any] = {}
+        self._count = 0
         self._folder = context.gui.add_folder("Displays")
         with self._folder:
             self._frames = FrameAxes(context)
@@ -95,9 +96,13 @@ class DisplayList:
         for topic in others:
             if types.get(topic) in KINDS and topic not in self.topics:
                 self._add(topic, types[topic])
-        for name in node.param_names():
-            if name.rpartition("/")[2] == "robot_description":
-                self._meet(name)
+        described = [
+            name for name in node.param_names() if name.rpartition("/")[2] == "robot_description"
+        ]
+        for name in {*self.robots, *self._refused} - set(described):
+            self._forget(name)
+        for name in described:
+            self._meet(name)
         for topic, display in self.topics.items():
             publishers = others.get(topic, 0)
             display.report(types.get(topic, "") if publishers else "", publishers)
@@ -128,6 +133,12 @@ class DisplayList:
         if isinstance(wanted, dict):
             self.topics[topic].restore(wanted)
 
+    def _forget(self, name: str) -> None:
+        """Remove the robot of a parameter, or what was wrong with it."""
+        self._refused.pop(name, None)
+        if name in self.robots:
+            self.robots.pop(name).remove()
+
     def _meet(self, name: str) -> None:
         """Read a robot_description, if it is new or another one."""
         node = self._context.node
@@ -135,11 +146,10 @@ class DisplayList:
         known = self.robots.get(name)
         if text in (None if known is None else known.text, self._refused.get(name, ("",))[0]):
             return
-        self._refused.pop(name, None)
-        if known is not None:
-            self.robots.pop(name).remove()
+        self._forget(name)
         prefix = str(node.get_param(f"{name.rpartition('/')[0]}/tf_prefix", "")).strip("/")
-        root = f"/robots/{len(self.robots)}"
+        self._count += 1
+        root = f"/robots/{self._count}"
         try:
             self.robots[name] = DescribedRobot(
                 self._context.scene, root, text, f"{prefix}/" if prefix else ""
