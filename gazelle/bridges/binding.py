@@ -222,8 +222,8 @@ class Binding:
         def answer(request: Any) -> Any:
             call = codec.read(request)
             with self._simulation.lock:
-                given = service.call(call, self._worlds)
-            return service_class._response_class(**codec.answer(given))
+                answer = service.call(call, self._worlds)
+            return service_class._response_class(**codec.answer(answer))
 
         if self._is_free(service.topic):
             server = self._node.serve(service.topic, service_class, answer)

@@ -31,8 +31,8 @@ def service_name_of(request: Any, response: Any) -> str | None:
 
 def fill(message: Message, value: Any, view: Any) -> None:
     """Copy a message, or that of the graph's world."""
-    given = value[view.world] if isinstance(value, Sequence) else value
-    for slot, content in slots_of(given).items():
+    item = value[view.world] if isinstance(value, Sequence) else value
+    for slot, content in slots_of(item).items():
         setattr(message, slot, content)
 
 

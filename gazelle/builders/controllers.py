@@ -143,18 +143,18 @@ def _controllers(
     prefix = "" if alone else f"{word}_"
     gains = {joint: _gains(model, joint) for joint in joints} if word == "effort" else {}
     if kind == "trajectory":
-        given: dict[str, Any] = {
+        parameters: dict[str, Any] = {
             "type": f"{word}_controllers/JointTrajectoryController", "joints": joints
         }  # fmt: skip
         if word == "velocity":
             gains = {joint: {"p": _FREQUENCY} for joint in joints}
-        given |= {"gains": gains} if gains else {}
-        return {f"{prefix}trajectory_controller": given}
+        parameters |= {"gains": gains} if gains else {}
+        return {f"{prefix}trajectory_controller": parameters}
     what = "Velocity" if word == "velocity" else "Position"
     if kind == "group":
-        given = {"type": f"{word}_controllers/JointGroup{what}Controller", "joints": joints}
-        given |= {joint: {"pid": each} for joint, each in gains.items()}
-        return {f"{prefix}group_controller": given}
+        parameters = {"type": f"{word}_controllers/JointGroup{what}Controller", "joints": joints}
+        parameters |= {joint: {"pid": each} for joint, each in gains.items()}
+        return {f"{prefix}group_controller": parameters}
     return {
         f"{joint}_controller": {
             "type": f"{word}_controllers/Joint{what}Controller", "joint": joint,

@@ -84,10 +84,10 @@ def add_link_properties(
         "material": material, "turnGravityOff": None if gravity is None else not gravity,
         "selfCollide": self_collide, "dampingFactor": damping,
     }  # fmt: skip
-    given = _given(values, f"link '{link}'")
+    properties = _given(values, f"link '{link}'")
     if isinstance(robot, str):
         urdf_text.check_name(robot, "link", link)
-        return urdf_text.insert(robot, [_tags(link, given)])
+        return urdf_text.insert(robot, [_tags(link, properties)])
     found = _link(robot, link)
     surface = {"mu": mu1, "mu2": mu2, "fdir1": fdir1}
     contact = {"kp": kp, "kd": kd, "max_vel": max_vel, "min_depth": min_depth}
@@ -137,10 +137,10 @@ def add_joint_properties(
         "stopCfm": stop_cfm, "stopErp": stop_erp, "fudgeFactor": fudge_factor,
         "springStiffness": spring_stiffness, "springReference": spring_reference,
     }  # fmt: skip
-    given = _given(values, f"joint '{joint}'")
+    properties = _given(values, f"joint '{joint}'")
     if isinstance(robot, str):
         urdf_text.check_name(robot, "joint", joint)
-        return urdf_text.insert(robot, [_tags(joint, given)])
+        return urdf_text.insert(robot, [_tags(joint, properties)])
     found = _joint(robot, joint)
     physics = {
         "provide_feedback": provide_feedback, "implicit_spring_damper": implicit_spring_damper,
@@ -277,10 +277,10 @@ def _fitted(model: Model, link: str, sensor: Sensor) -> Model:
 
 
 def _given(values: dict[str, Value | None], what: str) -> dict[str, Value]:
-    given = {name: value for name, value in values.items() if value is not None}
-    if not given:
+    present = {name: value for name, value in values.items() if value is not None}
+    if not present:
         raise BuildError(f"no property of {what} was given")
-    return given
+    return present
 
 
 def _tags(reference: str, values: dict[str, Value]) -> Parameters:

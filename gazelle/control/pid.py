@@ -101,8 +101,8 @@ class Pid:
                 raise ControlError(
                     f"the bounds of the integral are the wrong way round: {each.i_min}, {each.i_max}"
                 )
-        given = np.array([(g.p, g.i, g.d, g.i_min, g.i_max) for g in gains], np.float64)
-        p, i, d, least, most = np.ascontiguousarray(given.reshape(-1, 5).T)
+        rows = np.array([(g.p, g.i, g.d, g.i_min, g.i_max) for g in gains], np.float64)
+        p, i, d, least, most = np.ascontiguousarray(rows.reshape(-1, 5).T)
         inner = np.array([g.antiwindup and g.i != 0.0 for g in gains], bool)
         outer = np.array([not g.antiwindup for g in gains], bool)
         divisor = np.where(inner, i, 1.0)

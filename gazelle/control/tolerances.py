@@ -29,13 +29,13 @@ class TrajectoryTolerances:
     @classmethod
     def read(cls, parameters: ControllerParameters, joints: Sequence[str]) -> TrajectoryTolerances:
         """Read ``constraints``."""
-        given = parameters.part("constraints")
+        constraints = parameters.part("constraints")
         path, goal = np.zeros((2, len(joints), 3))
-        goal[:, 1] = given.number("stopped_velocity_tolerance", 0.01)
+        goal[:, 1] = constraints.number("stopped_velocity_tolerance", 0.01)
         for row, name in enumerate(joints):
-            path[row, 0] = given.number(f"{name}/trajectory", 0.0)
-            goal[row, 0] = given.number(f"{name}/goal", 0.0)
-        return cls(path, goal, given.number("goal_time", 0.0))
+            path[row, 0] = constraints.number(f"{name}/trajectory", 0.0)
+            goal[row, 0] = constraints.number(f"{name}/goal", 0.0)
+        return cls(path, goal, constraints.number("goal_time", 0.0))
 
     def with_goal(self, goal: TrajectoryGoal, joints: Sequence[str]) -> TrajectoryTolerances:
         """Return a goal's tolerances. Positive values replace a bound, negative ones remove it."""

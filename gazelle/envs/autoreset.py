@@ -37,8 +37,8 @@ def with_idle(actions: ArrayLike, space: gym.Space[Any], over: NDArray[np.intp])
         space: Of the actions of one world.
         over: The worlds with an ignored action, shape (n,).
     """
-    given = action_array(actions)
-    if given.ndim == 0 or len(given) <= over.max(initial=-1):
+    rows = action_array(actions)
+    if rows.ndim == 0 or len(rows) <= over.max(initial=-1):
         return actions
     if isinstance(space, gym.spaces.Discrete):
         idle: Any = space.start
@@ -46,6 +46,6 @@ def with_idle(actions: ArrayLike, space: gym.Space[Any], over: NDArray[np.intp])
         idle = np.clip(0.0, space.low, space.high)
     else:
         return actions
-    changed = given.copy()
+    changed = rows.copy()
     changed[over] = idle
     return changed

@@ -157,18 +157,18 @@ class PolicyContract:
         Raises:
             TaskError: Something in it is missing, unknown or impossible.
         """
-        given = dict(values)
-        found = given.pop("format", None)
+        fields = dict(values)
+        found = fields.pop("format", None)
         if found != FORMAT:
             raise TaskError(f"the format is {found!r}, expected {FORMAT!r}")
-        for number, part in enumerate(given.get("observation", ())):
+        for number, part in enumerate(fields.get("observation", ())):
             _check_kind(part, number)
-        parts = tuple(_made(ObservationPart, part) for part in given.pop("observation", ()))
-        action = _made(ActionRule, given.pop("action", {}))
-        scan = given.pop("scan", None)
+        parts = tuple(_made(ObservationPart, part) for part in fields.pop("observation", ()))
+        action = _made(ActionRule, fields.pop("action", {}))
+        scan = fields.pop("scan", None)
         contract: PolicyContract = _made(
             cls,
-            given
+            fields
             | {
                 "observation": parts,
                 "action": action,

@@ -20,12 +20,12 @@ def action_array(actions: Any) -> NDArray[Any]:
         TaskError: They are no numbers, or in rows of different lengths.
     """
     try:
-        given = np.asarray(actions)
+        rows = np.asarray(actions)
     except ValueError:  # the rows are not alike
-        given = np.asarray(None)
-    if given.dtype.kind not in _NUMBERS:
+        rows = np.asarray(None)
+    if rows.dtype.kind not in _NUMBERS:
         raise TaskError(f"actions must be an array of numbers, not {actions!r:.60}")
-    return given
+    return rows
 
 
 def checked_reward(values: Any, count: int) -> Floats:
@@ -89,16 +89,16 @@ def checked_info(info: dict[str, Any], count: int) -> dict[str, NDArray[Any]]:
 def _checked(name: str, values: Any, shape: tuple[Any, ...], hint: str, kinds: str) -> NDArray[Any]:
     """Return values as an array of a shape, in which ``...`` stands for any more axes."""
     try:
-        given = np.asarray(values)
+        rows = np.asarray(values)
     except ValueError:
         raise TaskError(f"{name} has rows of different lengths", hint=hint) from None
     leading = shape[:-1] if shape[-1:] == (...,) else shape
-    fits = given.shape[: len(leading)] == leading
-    if not fits or (leading is shape and given.ndim != len(shape)):
+    fits = rows.shape[: len(leading)] == leading
+    if not fits or (leading is shape and rows.ndim != len(shape)):
         wanted = f"({', '.join('...' if side is ... else str(side) for side in shape)}"
         wanted += ",)" if len(shape) == 1 else ")"
-        raise TaskError(f"{name} has shape {given.shape}, expected {wanted}", hint=hint)
-    if given.dtype.kind not in kinds:
+        raise TaskError(f"{name} has shape {rows.shape}, expected {wanted}", hint=hint)
+    if rows.dtype.kind not in kinds:
         what = "bools" if kinds == "b" else "numbers"
-        raise TaskError(f"{name} is of {given.dtype}, expected {what}", hint=hint)
-    return given
+        raise TaskError(f"{name} is of {rows.dtype}, expected {what}", hint=hint)
+    return rows

@@ -206,18 +206,18 @@ def checked_actions(actions: ArrayLike, space: gym.Space[Any], nworld: int) -> N
     Raises:
         TaskError: They have the wrong shape or values.
     """
-    given = np.asarray(actions)
+    rows = np.asarray(actions)
     if isinstance(space, gym.spaces.Discrete):
         first, last = int(space.start), int(space.start + space.n) - 1
-        whole = np.issubdtype(given.dtype, np.integer) and given.shape == (nworld,)
-        if not whole or given.min(initial=first) < first or given.max(initial=last) > last:
+        whole = np.issubdtype(rows.dtype, np.integer) and rows.shape == (nworld,)
+        if not whole or rows.min(initial=first) < first or rows.max(initial=last) > last:
             raise TaskError(
                 f"actions must be {nworld} ints from {first} to {last}, "
-                f"not {given.dtype} of shape {given.shape}: {given!r}"[:200]
+                f"not {rows.dtype} of shape {rows.shape}: {rows!r}"[:200]
             )
-        return given.astype(np.int64)
+        return rows.astype(np.int64)
     shape = (nworld, *(space.shape or ()))
-    wanted = given.astype(np.float64)
-    if given.shape != shape or np.count_nonzero(np.isfinite(wanted)) < wanted.size:
-        raise TaskError(f"actions must be finite, of shape {shape}, not {given.shape}")
+    wanted = rows.astype(np.float64)
+    if rows.shape != shape or np.count_nonzero(np.isfinite(wanted)) < wanted.size:
+        raise TaskError(f"actions must be finite, of shape {shape}, not {rows.shape}")
     return wanted

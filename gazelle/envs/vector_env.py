@@ -96,10 +96,10 @@ class TaskVectorEnv(gym.vector.VectorEnv[Any, Any, NDArray[Any]]):
             ClosedEnvError: The environment is closed.
         """
         check_open("reset()", closed=self.closed)
-        given = checked_mapping("reset options", options)
-        for name in given:
+        mapping = checked_mapping("reset options", options)
+        for name in mapping:
             check_name("reset option", name, ["reset_mask"])
-        worlds = _masked(given.get("reset_mask"), self.num_envs)
+        worlds = _masked(mapping.get("reset_mask"), self.num_envs)
         if seed is None and self._np_random is None:
             seed = self._first_seed if self._first_seed is not None else _fresh_seed()
         if seed is not None:

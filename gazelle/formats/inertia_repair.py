@@ -65,19 +65,19 @@ def valid_inertial(
         )
         mass = LEAST_MASS
         inertial = replace(inertial, mass=mass)
-    given = inertial.inertia
-    if _is_positive(given):
-        _note_triangle(given, node, reading)
+    inertia = inertial.inertia
+    if _is_positive(inertia):
+        _note_triangle(inertia, node, reading)
         return inertial
-    tensor = _valid_tensor(given.matrix(), mass, collisions)
+    tensor = _valid_tensor(inertia.matrix(), mass, collisions)
     taken = Inertia.from_matrix(tensor)
     reading.fault(
-        f"{_WRONG} ({_numbers(given)}): {_numbers(taken)} was taken",
+        f"{_WRONG} ({_numbers(inertia)}): {_numbers(taken)} was taken",
         node.find("inertia") or node,
         _HINT,
     )
-    finite = np.isfinite(given.matrix()).all()
-    return replace(inertial, inertia=taken, written=given if finite else None)
+    finite = np.isfinite(inertia.matrix()).all()
+    return replace(inertial, inertia=taken, written=inertia if finite else None)
 
 
 def _note_triangle(inertia: Inertia, node: Parameters, reading: Reading) -> None:

@@ -141,8 +141,8 @@ def load_model_string(
 
 
 def _reading(paths: Sequence[PathLike], xacro_args: Mapping[str, str] | None) -> Reading:
-    given = (paths,) if isinstance(paths, (str, os.PathLike)) else paths
-    return Reading(Resolver(given), xacro_args=dict(xacro_args or {}))
+    folders = (paths,) if isinstance(paths, (str, os.PathLike)) else paths
+    return Reading(Resolver(folders), xacro_args=dict(xacro_args or {}))
 
 
 def _only_model(world: World, name: str) -> Model:

@@ -91,11 +91,11 @@ def look_of_trimesh(mesh: Any) -> MeshLook:
 
 def _factor(factor: Any, material: Any) -> tuple[float, float, float, float]:
     """Return red, green, blue and alpha, 0 to 1, of glTF's base colour or an older material's."""
-    given = factor if factor is not None else getattr(material, "diffuse", None)
-    if given is None:
+    color = factor if factor is not None else getattr(material, "diffuse", None)
+    if color is None:
         return (1.0, 1.0, 1.0, 1.0)
-    values = np.asarray(given, np.float64).ravel()
-    if np.asarray(given).dtype.kind in "iu":
+    values = np.asarray(color, np.float64).ravel()
+    if np.asarray(color).dtype.kind in "iu":
         values = values / 255.0
     red, green, blue, alpha = np.clip(np.append(values, 1.0)[:4], 0.0, 1.0).tolist()
     return (red, green, blue, alpha)

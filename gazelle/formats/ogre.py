@@ -114,11 +114,11 @@ def _refined(material: ScriptMaterial, block: ScriptBlock) -> ScriptMaterial:
     if shown is None:
         return material
     for key, *words in shown.lines:
-        given = [values.get(word, word) for word in words]
+        replaced = [values.get(word, word) for word in words]
         if key in {"ambient", "diffuse", "specular", "emissive"}:
-            material = _colored(material, key, _color(key, given))
+            material = _colored(material, key, _color(key, replaced))
         elif key == "scene_blend":
-            material = replace(material, blended=given[:1] != ["replace"])
+            material = replace(material, blended=replaced[:1] != ["replace"])
     unit = shown.first("texture_unit")
     for key, *words in unit.lines if unit is not None else ():
         if key == "texture" and words:

@@ -168,12 +168,12 @@ class InverseKinematics:
         if wanted.ndim != 3 or wanted.shape[1:] != (4, 4):
             raise PlanningError(f"poses have the shape (n, 4, 4), not {wanted.shape}")
         count = len(wanted)
-        given = self.robot.zero() if states is None else np.asarray(states, np.float64)
+        starts = self.robot.zero() if states is None else np.asarray(states, np.float64)
         shape = (count, len(self.robot.variables))
-        if given.shape not in {shape, shape[1:]}:
-            raise PlanningError(f"states have the shape {shape}, not {given.shape}")
+        if starts.shape not in {shape, shape[1:]}:
+            raise PlanningError(f"states have the shape {shape}, not {starts.shape}")
         targets = np.concatenate((wanted[:, :3, :3].reshape(count, 9), wanted[:, :3, 3]), axis=1)
-        return targets, np.broadcast_to(given, shape)
+        return targets, np.broadcast_to(starts, shape)
 
     def _solve_one(
         self,

@@ -298,12 +298,12 @@ class RobotModel:
         Raises:
             PlanningError: A link is not there, or the state has another number of columns.
         """
-        given = self._checked(state)
+        checked = self._checked(state)
         names = [links] if isinstance(links, str) else list(links)
         chosen = [self.link(name) for name in names]
         joints = np.array([link.joint for link in chosen], np.intp)
         offsets = np.array([flat(link.offset) for link in chosen]).reshape(-1, 12)
-        poses: Floats = self.tree.forward(given, joints, offsets)
+        poses: Floats = self.tree.forward(checked, joints, offsets)
         if isinstance(links, str):
             poses = poses[:, 0]
         return poses if np.ndim(state) > 1 else poses[0]
@@ -334,13 +334,13 @@ class RobotModel:
         return made if np.ndim(state) > 1 else made[0]
 
     def _checked(self, state: ArrayLike) -> Floats:
-        given = np.atleast_2d(np.asarray(state, np.float64))
-        if given.ndim != 2 or given.shape[1] != len(self.variables):
+        states = np.atleast_2d(np.asarray(state, np.float64))
+        if states.ndim != 2 or states.shape[1] != len(self.variables):
             raise PlanningError(
                 f"a state has {len(self.variables)} positions, not the shape {np.shape(state)}",
                 hint="in the order of RobotModel.names",
             )
-        return given
+        return states
 
     def __repr__(self) -> str:
         return f"<RobotModel '{self.model.name}': {len(self.variables)} variables>"

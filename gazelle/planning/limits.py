@@ -18,13 +18,13 @@ def checked_poses(poses: object) -> list[Pose]:
     Raises:
         PlanningError: There are none, or one is no pose.
     """
-    given = list(poses) if isinstance(poses, Sequence) else []
-    if not given:
+    listed = list(poses) if isinstance(poses, Sequence) else []
+    if not listed:
         raise PlanningError(f"a path needs a list of one pose or more, not {poses!r}")
-    for number, pose in enumerate(given):
+    for number, pose in enumerate(listed):
         if not isinstance(pose, Pose):
             raise PlanningError(f"pose {number} of a path is no gazelle.Pose: {pose!r}")
-    return given
+    return listed
 
 
 def checked_steps(steps: float, step: float) -> int:

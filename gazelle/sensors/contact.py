@@ -168,9 +168,9 @@ class ContactGroup(FromPython):
 
     def _learn(self, codes: Indices) -> None:
         """Add numbers of names that sensors meet for the first time."""
-        given = dict(zip(self._codes.tolist(), self._numbers.tolist(), strict=True))
+        numbers = dict(zip(self._codes.tolist(), self._numbers.tolist(), strict=True))
         for code in codes.tolist():
             owner, name = divmod(code, len(self._names))
-            given[code] = int(self._models[owner].number(self._names[name]))
-        self._codes = np.array(sorted(given), np.intp)
-        self._numbers = np.array([given[code] for code in self._codes.tolist()], np.intp)
+            numbers[code] = int(self._models[owner].number(self._names[name]))
+        self._codes = np.array(sorted(numbers), np.intp)
+        self._numbers = np.array([numbers[code] for code in self._codes.tolist()], np.intp)

@@ -148,8 +148,8 @@ class Actor:
         Returns:
             Shape (N,) int64 for discrete actions, else (N, actions) float32 within the bounds.
         """
-        given = np.asarray(obs, dtype=None if self.pictures is not None else np.float32)
-        outputs = self.outputs(given.reshape(len(obs), -1), memory)
+        rows = np.asarray(obs, dtype=None if self.pictures is not None else np.float32)
+        outputs = self.outputs(rows.reshape(len(obs), -1), memory)
         if rng is None or self.head in {"greedy", "squashed"}:
             return self.to_env(self.mode(outputs))
         return self.to_env(self.sample(outputs, rng))

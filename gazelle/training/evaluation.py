@@ -206,7 +206,7 @@ def resolve_policy(
     trust: bool = False,
 ) -> tuple[Actor, str, dict[str, Any]]:
     """Return the actor, its task, and the options of the environment."""
-    given = {key: value for key, value in options.items() if value is not None}
+    chosen = {key: value for key, value in options.items() if value is not None}
     if isinstance(run_or_policy, str | Path) and Path(run_or_policy).suffix != ".npz":
         run = Run.open(Path(run_or_policy))
         require_trust(run, modules, trust=trust)
@@ -218,11 +218,11 @@ def resolve_policy(
         return (
             load_actor(run.policy_file(best=best)),
             task,
-            known | dict(run.config.recipe.evaluation_options) | given,
+            known | dict(run.config.recipe.evaluation_options) | chosen,
         )
     if task is None:
         raise TaskError("a policy file does not name its task", hint="give the task as well")
-    options = evaluation_options(task, {}) | given
+    options = evaluation_options(task, {}) | chosen
     if isinstance(run_or_policy, Actor):
         return run_or_policy, task, options
     return load_actor(Path(run_or_policy)), task, options

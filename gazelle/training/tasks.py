@@ -187,18 +187,18 @@ def make_task(name: str, num_envs: int, **options: Any) -> VectorEnv[Any, Any, A
         TaskError: There is no such task, or it has no such option.
     """
     task = find_task(name)
-    given = {key: value for key, value in options.items() if value is not None}
+    chosen = {key: value for key, value in options.items() if value is not None}
     native = gym.registry[task].vector_entry_point is not None
     mode = "vector_entry_point" if native else "sync"
     try:
         env: VectorEnv[Any, Any, Any] = gym.make_vec(
-            task, num_envs=num_envs, vectorization_mode=mode, **given
+            task, num_envs=num_envs, vectorization_mode=mode, **chosen
         )
     except TypeError as error:
         if "unexpected keyword argument" not in str(error):
             raise
         raise TaskError(
-            f"{task} does not take all of these options: {', '.join(given)}",
+            f"{task} does not take all of these options: {', '.join(chosen)}",
             hint="its docstring lists what it takes",
         ) from error
     return env

@@ -275,8 +275,8 @@ class GazeboInterface(Closeable):
         waiting = self._simulation.lock.wrap(handler)
 
         def answer(request: Any) -> Any:
-            given = waiting(request) if wait else handler(request)
-            return response(**given) if isinstance(given, dict) else given
+            answer = waiting(request) if wait else handler(request)
+            return response(**answer) if isinstance(answer, dict) else answer
 
         full = name if name.startswith("/") else f"~{name}"
         self._closing.append(self._node.serve(full, service, answer).close)

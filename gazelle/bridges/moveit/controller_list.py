@@ -57,15 +57,15 @@ def controllers_of(node: Node) -> dict[str, ActionController]:
     Raises:
         PlanningError: The list is malformed.
     """
-    given = node.get_param("~controller_list", None)
-    if given is None:
+    entries = node.get_param("~controller_list", None)
+    if entries is None:
         return _running(node)
-    if not isinstance(given, list) or not all(isinstance(each, Mapping) for each in given):
+    if not isinstance(entries, list) or not all(isinstance(each, Mapping) for each in entries):
         raise PlanningError("the parameter 'controller_list' is no list of controllers")
     # As MoveIt's fake manager has it; the simple one wants a type.
     fake = "fake" in str(node.get_param("~moveit_controller_manager", "")).lower()
     found = {}
-    for each in given:
+    for each in entries:
         try:
             made = _entry({"type": FAKE[0], **each} if fake else each)
         except PlanningError as error:

@@ -32,8 +32,8 @@ def robot_of_parameters(node: Node, description: str = DESCRIPTION) -> RobotMode
     name = f"{description}_semantic"
     semantics = load_srdf_string(description_text(node, name), name=name)
     plain = RobotModel(model, semantics)
-    given = find_parameter(node, f"{description}_planning", {})
-    entries = given.get("joint_limits") if isinstance(given, Mapping) else None
+    parameters = find_parameter(node, f"{description}_planning", {})
+    entries = parameters.get("joint_limits") if isinstance(parameters, Mapping) else None
     if not isinstance(entries or {}, Mapping):
         raise PlanningError(
             f"the parameter '{description}_planning/joint_limits' is limits by joint, "
@@ -50,20 +50,20 @@ def margins_of_parameters(
     Raises:
         PlanningError: One is no number.
     """
-    given = find_parameter(node, f"{DESCRIPTION}_planning", {})
-    given = given if isinstance(given, Mapping) else {}
+    parameters = find_parameter(node, f"{DESCRIPTION}_planning", {})
+    parameters = parameters if isinstance(parameters, Mapping) else {}
     made: list[dict[str, float]] = []
     for kind in ("padding", "scale"):
         found: dict[str, float] = {}
-        if f"default_robot_{kind}" in given:
-            value = _number(given[f"default_robot_{kind}"], f"default_robot_{kind}")
+        if f"default_robot_{kind}" in parameters:
+            value = _number(parameters[f"default_robot_{kind}"], f"default_robot_{kind}")
             found = dict.fromkeys(robot.links, value)
-        own = given.get(f"default_robot_link_{kind}s")
+        own = parameters.get(f"default_robot_link_{kind}s")
         for link, value in own.items() if isinstance(own, Mapping) else ():
             found[str(link)] = _number(value, f"default_robot_link_{kind}s/{link}")
         made.append(found)
     for name in ("default_object_padding", "default_attached_padding"):
-        if given.get(name):
+        if parameters.get(name):
             text = f"{DESCRIPTION}_planning/{name} has no effect, as in MoveIt; paddings are of the robot's links"
             warnings.warn(PlanningWarning(text), stacklevel=2)
     return made[0], made[1]

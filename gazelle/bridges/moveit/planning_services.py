@@ -165,9 +165,9 @@ class PlanningServices:
         return {"params": made}
 
     def _set_parameters(self, request: moveit_msgs.srv.SetPlannerParamsRequest) -> dict[str, Any]:
-        given = dict(zip(request.params.keys, request.params.values, strict=False))
+        parameters = dict(zip(request.params.keys, request.params.values, strict=False))
         self.settings.set_parameters(
-            request.planner_config, request.group, given, replace=request.replace
+            request.planner_config, request.group, parameters, replace=request.replace
         )
         return {}
 

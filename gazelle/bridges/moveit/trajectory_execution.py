@@ -47,10 +47,12 @@ class TrajectoryExecutor:
         self._context = context
         node = context.node
         self.allowed = bool(node.get_param("~allow_trajectory_execution", True))
-        given: Any = node.get_param("~trajectory_execution", {}) or {}
-        self._scaling = float(given.get("allowed_execution_duration_scaling", DURATION_SCALING))
-        self._margin = float(given.get("allowed_goal_duration_margin", DURATION_MARGIN))
-        self._tolerance = float(given.get("allowed_start_tolerance", START_TOLERANCE))
+        parameters: Any = node.get_param("~trajectory_execution", {}) or {}
+        self._scaling = float(
+            parameters.get("allowed_execution_duration_scaling", DURATION_SCALING)
+        )
+        self._margin = float(parameters.get("allowed_goal_duration_margin", DURATION_MARGIN))
+        self._tolerance = float(parameters.get("allowed_start_tolerance", START_TOLERANCE))
         self._clients: dict[str, SimpleActionClient] = {}
         self._fake: FakeMotion | None = None
         if node.get_param("~controller_list", None) is not None and any(

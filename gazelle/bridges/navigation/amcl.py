@@ -173,7 +173,7 @@ class AmclNode:
                 stacklevel=2,
             )
             return
-        given = pose_of(message.pose.pose)
+        pose = pose_of(message.pose.pose)
         stamp = message.header.stamp.to_nsec() or self.frames.latest(self._odom, self._base)
         cov = np.array(message.pose.covariance, np.float64).reshape(6, 6)[
             np.ix_([0, 1, 5], [0, 1, 5])
@@ -183,7 +183,7 @@ class AmclNode:
             then = self.frames.pose(self._odom, self._base, stamp)
             now = self.frames.pose(self._odom, self._base)
             moved = between(then, now) if then is not None and now is not None else (0.0, 0.0, 0.0)
-            localizer.begin(composed(given, moved), cov)
+            localizer.begin(composed(pose, moved), cov)
 
         self._do(begin)
 

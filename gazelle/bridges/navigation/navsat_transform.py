@@ -187,8 +187,8 @@ class NavsatTransformNode:
         set_point(message.pose.pose.position, found)
         set_quaternion(message.pose.pose.orientation, _UNIT)
         spread = np.zeros((6, 6))
-        given = np.array(fix.position_covariance, float).reshape(3, 3)
-        spread[:3, :3] = _turned(placement.pose, given)
+        covariance = np.array(fix.position_covariance, float).reshape(3, 3)
+        spread[:3, :3] = _turned(placement.pose, covariance)
         message.pose.covariance = spread.ravel().tolist()
         return message
 
@@ -199,8 +199,8 @@ class NavsatTransformNode:
         message = sensor_msgs.msg.NavSatFix()
         message.header.stamp, message.header.frame_id = odometry.header.stamp, self._base
         _fill(message, placement.to_earth(np.array(point(odometry.pose.pose.position))))
-        given = np.array(odometry.pose.covariance, float).reshape(6, 6)[:3, :3]
-        turned = _turned(placement.pose.inverse(), given)
+        covariance = np.array(odometry.pose.covariance, float).reshape(6, 6)[:3, :3]
+        turned = _turned(placement.pose.inverse(), covariance)
         message.position_covariance = turned.ravel().tolist()
         message.position_covariance_type = message.COVARIANCE_TYPE_KNOWN
         message.status.status = message.status.STATUS_GBAS_FIX
@@ -249,9 +249,9 @@ class NavsatTransformNode:
     # Services -------------------------------------------------------------------------------
 
     def _datum(self, request: robot_localization.srv.SetDatumRequest) -> dict[str, Any]:
-        given = request.geo_pose
-        turned = Pose.from_quaternion((0.0, 0.0, 0.0), quaternion(given.orientation))
-        self._set_datum(_place_of(given.position), turned.yaw)
+        pose = request.geo_pose
+        turned = Pose.from_quaternion((0.0, 0.0, 0.0), quaternion(pose.orientation))
+        self._set_datum(_place_of(pose.position), turned.yaw)
         return {}
 
     def _set_zone(self, request: robot_localization.srv.SetUTMZoneRequest) -> dict[str, Any]:

@@ -36,6 +36,6 @@ def joint_to_mujoco(q: Floats) -> Floats:
     order = _JOINT_TO_WXYZ.get(q.shape[-1])
     if order is None:
         return q
-    given = q.take(order, axis=-1)
-    given[..., -4:] /= np.linalg.norm(given[..., -4:], axis=-1, keepdims=True)
-    return given
+    reordered = q.take(order, axis=-1)
+    reordered[..., -4:] /= np.linalg.norm(reordered[..., -4:], axis=-1, keepdims=True)
+    return reordered

@@ -225,8 +225,8 @@ class PoseSensor(FusedSensor):
         frames, imu = self._frames, self._source.kind == "imu"
         target = frames.base if imu else frames.world
         # A difference is in the frame of the robot, wherever the poses are.
-        given = target if not frame or (self._source.differential and not imu) else frame
-        found = frames.find(target, given, stamp)
+        source_frame = target if not frame or (self._source.differential and not imu) else frame
+        found = frames.find(target, source_frame, stamp)
         below = Pose() if child in ("", frames.base) else frames.find(child, frames.base, stamp)
         if found is None or below is None:
             return None

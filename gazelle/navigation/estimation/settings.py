@@ -250,20 +250,20 @@ def _control(values: Values, timeout: float) -> ControlModel:
 
 
 def _flags(values: Values, name: str, size: int) -> Bools:
-    given = values.get(name)
-    listed = given if isinstance(given, list) else []
+    value = values.get(name)
+    listed = value if isinstance(value, list) else []
     if len(listed) != size or not all(each in (0, 1) for each in listed):
-        raise Error(f"the parameter '{name}' is a list of {size} bools, not {given!r:.60}")
+        raise Error(f"the parameter '{name}' is a list of {size} bools, not {value!r:.60}")
     return np.array(listed, bool)
 
 
 def _row(values: Values, name: str, size: int) -> Floats | None:
-    given = values.get(name)
-    if given is None:
+    value = values.get(name)
+    if value is None:
         return None
-    numbers = [finite(each) for each in given] if isinstance(given, list) else [None]
+    numbers = [finite(each) for each in value] if isinstance(value, list) else [None]
     if None in numbers or len(numbers) != size:
-        raise Error(f"the parameter '{name}' is a list of {size} numbers, not {given!r:.60}")
+        raise Error(f"the parameter '{name}' is a list of {size} numbers, not {value!r:.60}")
     return np.array(numbers, float)
 
 

@@ -98,11 +98,11 @@ class ParticleFilter:
         Raises:
             Error: They are of another shape, or too many.
         """
-        given = np.ascontiguousarray(poses, np.float64)
-        if given.ndim != 2 or given.shape[1] != 3 or not 0 < len(given) <= MAX_PARTICLES:
-            raise Error(f"poses of particles have the shape (n, 3), not {given.shape}")
-        self.poses = given
-        self.weights = np.full(len(given), 1.0 / len(given))
+        rows = np.ascontiguousarray(poses, np.float64)
+        if rows.ndim != 2 or rows.shape[1] != 3 or not 0 < len(rows) <= MAX_PARTICLES:
+            raise Error(f"poses of particles have the shape (n, 3), not {rows.shape}")
+        self.poses = rows
+        self.weights = np.full(len(rows), 1.0 / len(rows))
         self._long = self._short = 0.0
         self.converged = False
 

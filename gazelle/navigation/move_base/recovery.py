@@ -146,12 +146,12 @@ def make_recovery(
     if kind not in _KINDS:
         raise Error(f"the recovery type '{kind}' is unknown", hint=did_you_mean(kind, _KINDS))
     own = values.get(name)
-    given: dict[str, Any] = dict(own) if isinstance(own, Mapping) else {}
+    parameters: dict[str, Any] = dict(own) if isinstance(own, Mapping) else {}
     if name == "conservative_reset":
-        given.setdefault("reset_distance", conservative)
+        parameters.setdefault("reset_distance", conservative)
     elif name == "aggressive_reset":
-        given.setdefault("reset_distance", 4.0 * local.circumscribed)
+        parameters.setdefault("reset_distance", 4.0 * local.circumscribed)
     if kind == _ROTATE:
         base = values.get("TrajectoryPlannerROS")
-        given = {**(base if isinstance(base, Mapping) else {}), **given}
-    return _KINDS[kind](name, whole, local, given)
+        parameters = {**(base if isinstance(base, Mapping) else {}), **parameters}
+    return _KINDS[kind](name, whole, local, parameters)

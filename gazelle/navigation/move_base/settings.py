@@ -59,20 +59,20 @@ def recoveries_of(values: Values, settings: MoveBaseSettings) -> list[Mapping[st
     Raises:
         Error: An entry of ``recovery_behaviors`` is none, or a name stands there twice.
     """
-    given = values.get("recovery_behaviors")
-    if given is None:
+    behaviors = values.get("recovery_behaviors")
+    if behaviors is None:
         return [
             each
             for each in DEFAULT_RECOVERY
             if settings.clearing_rotation_allowed or "Rotate" not in each["type"]
         ]
-    if not isinstance(given, list):
+    if not isinstance(behaviors, list):
         raise Error("'recovery_behaviors' is a list of entries {name: ..., type: ...}")
     names = set()
-    for each in given:
+    for each in behaviors:
         if not isinstance(each, Mapping) or not {"name", "type"} <= set(each):
             raise Error(f"an entry of 'recovery_behaviors' has a name and a type, not {each!r}")
         if each["name"] in names:
             raise Error(f"the recovery behaviour '{each['name']}' is there twice")
         names.add(each["name"])
-    return list(given)
+    return list(behaviors)

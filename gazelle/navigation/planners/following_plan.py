@@ -41,11 +41,11 @@ class PlanFollower(LocalPlannerPlugin):
         Raises:
             Error: It has another shape, or a number that is not finite.
         """
-        given = np.array(plan, np.float64)
-        if given.ndim != 2 or given.shape[1] != 3 or not np.isfinite(given).all():
-            raise Error(f"a plan is finite poses, shape (n, 3), not of the shape {given.shape}")
-        self._plan = given
-        return len(given) > 0
+        poses = np.array(plan, np.float64)
+        if poses.ndim != 2 or poses.shape[1] != 3 or not np.isfinite(poses).all():
+            raise Error(f"a plan is finite poses, shape (n, 3), not of the shape {poses.shape}")
+        self._plan = poses
+        return len(poses) > 0
 
     def goal(self, to_local: Pose2) -> Pose2:
         """Return the end of the plan in the costmap's frame."""

@@ -144,9 +144,9 @@ class TrajectoryPlanner(PlanFollower):
         s = self.settings
         steps = steps_of(commands, s.sim_time, s.sim_granularity, s.angular_sim_granularity)
         steps = np.maximum(steps, 1).astype(np.int32)
-        given = np.ascontiguousarray(commands, np.float64)
+        rows = np.ascontiguousarray(commands, np.float64)
         return rollout.judge(
-            np.array(pose, np.float64), np.array(velocity, np.float64), given, steps, s.sim_time
+            np.array(pose, np.float64), np.array(velocity, np.float64), rows, steps, s.sim_time
         )
 
     def _best(

@@ -55,9 +55,9 @@ def run_stage(stage: int, arguments: Sequence[str]) -> int:
 
 def _learned(node: Node, stage: int) -> Path | None:
     """Return the folder of a run; None if its training was stopped."""
-    given = str(node.get_param("~run", ""))
-    if given:
-        return expanded(given)
+    folder = str(node.get_param("~run", ""))
+    if folder:
+        return expanded(folder)
     from gazelle.training.progress import choose_progress
     from gazelle.training.session import train
 

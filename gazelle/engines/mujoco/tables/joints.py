@@ -63,13 +63,13 @@ class MujocoJointRow:
         """Set the position [m or rad], shape (axes,) or (n, axes), to its limits at most."""
         self._run.placed = True
         slots = self._run.now().joint(self._name)
-        given = joint_to_mujoco(np.atleast_1d(np.asarray(position, np.float64)))
+        positions = joint_to_mujoco(np.atleast_1d(np.asarray(position, np.float64)))
         if len(slots) > 1 or slots[0].position.stop - slots[0].position.start == 1:
             lower, upper = (
                 self._run.parameter(f"joint_{side}", self._name, worlds) for side in _SIDES
             )
-            given = np.clip(given, lower, np.maximum(lower, upper))
-        self._write(self._run.state.qpos, [s.position for s in slots], given, worlds)
+            positions = np.clip(positions, lower, np.maximum(lower, upper))
+        self._write(self._run.state.qpos, [s.position for s in slots], positions, worlds)
 
     def set_velocity(self, velocity: ArrayLike, worlds: Worlds | None = None) -> None:
         """Set the velocity [m/s or rad/s], shape (axes,) or (n, axes)."""
@@ -79,26 +79,26 @@ class MujocoJointRow:
     def set_effort(self, effort: ArrayLike, worlds: Worlds | None = None) -> None:
         """Apply an effort until another is set [N or N m], shape (axes,) or (n, axes)."""
         slots = self._run.now().joint(self._name)
-        given = np.atleast_1d(np.asarray(effort, np.float64))
-        within = self._run.layout.limits.clamp(self._name, given)
+        efforts = np.atleast_1d(np.asarray(effort, np.float64))
+        within = self._run.layout.limits.clamp(self._name, efforts)
         self._write(self._run.state.qfrc_applied, [s.velocity for s in slots], within, worlds)
 
     def set_motor_velocity(self, velocity: ArrayLike, worlds: Worlds | None = None) -> None:
         """Set the velocity that the joint's motor holds [m/s or rad/s]."""
         columns = self._run.now().motor(self._name).targets
-        given = np.asarray(velocity, np.float64)
-        if columns.stop - columns.start == 1 and given.ndim == 1:
-            given = given[:, None]
-        self._run.state.userdata[rows_of(worlds), columns] = given
+        velocities = np.asarray(velocity, np.float64)
+        if columns.stop - columns.start == 1 and velocities.ndim == 1:
+            velocities = velocities[:, None]
+        self._run.state.userdata[rows_of(worlds), columns] = velocities
 
     def _write(
         self, array: Floats, columns: list[slice], values: ArrayLike, worlds: Worlds | None
     ) -> None:
-        given = np.atleast_1d(np.asarray(values, np.float64))
+        rows = np.atleast_1d(np.asarray(values, np.float64))
         start = 0
         for column in columns:
             width = column.stop - column.start
-            array[rows_of(worlds), column] = given[..., start : start + width]
+            array[rows_of(worlds), column] = rows[..., start : start + width]
             start += width
         self._run.stale = True
 
@@ -213,11 +213,11 @@ class MujocoJointRows:
     def set_motor_velocity(self, velocity: ArrayLike, chosen: Bools | None = None) -> None:
         """Set the velocities that the motors hold [m/s or rad/s]."""
         targets, columns = self.motor_targets()
-        given = np.asarray(velocity, np.float64)
+        velocities = np.asarray(velocity, np.float64)
         if chosen is None:
-            targets[:, columns] = given
+            targets[:, columns] = velocities
         else:
-            targets[:, columns[chosen]] = given[..., chosen]
+            targets[:, columns[chosen]] = velocities[..., chosen]
 
     def motor_targets(self) -> tuple[Floats, Indices]:
         """Return the velocities that motors hold, to be written, and the joints' columns."""
