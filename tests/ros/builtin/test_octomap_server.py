@@ -13,6 +13,7 @@ from ros.graph import Background, until
 
 from gazelle_ros import load_service
 from gazelle_ros.base.errors import Error
+from gazelle_ros.builtin.octomap import saver
 from gazelle_ros.builtin.octomap.codec import binary_tree, full_tree
 from gazelle_ros.builtin.octomap.morton import ORIGIN, decode, encode
 from gazelle_ros.builtin.octomap.rays import crossed
@@ -317,6 +318,39 @@ def test_limits_of_height_and_services(mapping, make_node):
     assert not made.server.map.occupied.any()
     call("/mapper/reset", "std_srvs/Empty")
     assert len(made.server.map.codes) == 0
+
+
+@pytest.mark.parametrize(
+    ("words", "name", "first", "read"),
+    [
+        ([], "map.bt", "# Octomap OcTree binary file", read_binary),
+        (["-f"], "map.ot", "# Octomap OcTree file", read_full),
+    ],
+)
+def test_a_map_is_saved_as_a_file(mapping, master, monkeypatch, tmp_path, words, name, first, read):
+    monkeypatch.setenv("ROS_MASTER_URI", master.uri)
+    made = mapping()
+    made.see(lambda: len(made.server.map.codes) > 0)
+    assert saver.main([*words, str(tmp_path / name)]) == 0
+    head, _, data = (tmp_path / name).read_bytes().partition(b"data\n")
+    lines = head.decode().splitlines()
+    assert (lines[0], lines[1], lines[3]) == (first, "id OcTree", "res 0.1")
+    leaves = read(data)
+    if name == "map.bt":
+        assert sum(cells_of(leaves).values()) == len(WALL)
+        assert int(lines[2].removeprefix("size ")) == len(leaves) + len(data) // 2
+    else:
+        assert len(leaves) == len(made.server.map.codes)
+        assert int(lines[2].removeprefix("size ")) == len(data) // 5
+
+
+@pytest.mark.parametrize(
+    ("words", "text"),
+    [([], "it takes one file"), (["map.ot"], "no name of such a map"), (["-f", "a.bt"], "no name")],
+)
+def test_a_wrong_line_of_the_saver_is_an_error(words, text):
+    with pytest.raises(Error, match=text):
+        saver.main(words)
 
 
 @pytest.mark.parametrize(

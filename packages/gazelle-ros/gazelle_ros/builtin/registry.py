@@ -105,6 +105,7 @@ _OWN = {
         BuiltinPackage("nodelet", {"nodelet": "gazelle_ros.builtin.nodelets.command:main"}),
         BuiltinPackage("octomap_server", {
             "octomap_server_node": "gazelle_ros.builtin.octomap.server:main",
+            "octomap_saver": "gazelle_ros.builtin.octomap.saver:main",
         }, {"OctomapServerNodelet": "gazelle_ros.builtin.octomap.server:OctomapServer"}),
         BuiltinPackage("pointcloud_to_laserscan", {
             "pointcloud_to_laserscan_node": "gazelle_ros.builtin.scans.pointcloud:scan_main",
