@@ -135,16 +135,24 @@ def test_joints_nobody_measures_are_zero(make_node):
     assert got[-1].velocity == pytest.approx((0.0, 0.5, 0.0))
 
 
-def published(make_node, **parameters):
+def published(make_node, robot=ROBOT, **parameters):
     """Return what the node publishes with some parameters, as a list that grows."""
     node, watcher = make_node("jsp"), make_node("watcher")
     for name, value in {"rate": 50, **parameters}.items():
         node.set_param(f"~{name}", value)
     got = []
     watcher.subscribe("/joint_states", load_message("sensor_msgs/JointState"), got.append)
-    JointStatePublisher(node, read_joints(ROBOT))
+    JointStatePublisher(node, read_joints(robot))
     until(lambda: got)
     return got
+
+
+@pytest.mark.parametrize(("smallest", "lift"), [(True, 0.55), (False, 0.4)])
+def test_limits_of_a_safety_controller_count_unless_they_are_not_to(make_node, smallest, lift):
+    soft = '<safety_controller k_velocity="1" soft_lower_limit="0.5" soft_upper_limit="9"/>'
+    robot = ROBOT.replace('<limit lower="0.2"', f'{soft}<limit lower="0.2"')
+    got = published(make_node, robot, use_smallest_joint_limits=smallest)
+    assert got[0].position[0] == pytest.approx(lift)
 
 
 def test_joints_depend_on_others_by_parameters(make_node):

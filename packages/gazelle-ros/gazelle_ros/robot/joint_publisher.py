@@ -40,8 +40,9 @@ class JointStatePublisher:
 
     The node's private parameters ``rate`` (10 Hz), ``source_list``, ``zeros``,
     ``publish_default_positions`` (true), ``publish_default_velocities`` and
-    ``publish_default_efforts`` (false), ``use_mimic_tags`` (true), ``dependent_joints`` and ``delta``
-    (0, by which joints move to and fro in each message) are read at the start.
+    ``publish_default_efforts`` (false), ``use_mimic_tags`` (true), ``dependent_joints``,
+    ``use_smallest_joint_limits`` (true: those of a safety controller count) and ``delta`` (0, by which
+    joints move to and fro in each message) are read at the start.
 
     Args:
         node: Node of the topics.
@@ -57,6 +58,8 @@ class JointStatePublisher:
         values = node.get_param(node.resolve("~"), {})
         warn_of_unknown(node.resolve("~"), values if isinstance(values, dict) else {}, _KNOWN)
         joints = _with_dependents(node, joints)
+        if node.get_param("~use_smallest_joint_limits", True):
+            joints = {name: _within_soft_limits(each) for name, each in joints.items()}
         self._joints = joints
         self._delta = value_of(values, "delta", 0.0)
         self._backward: set[str] = set()
@@ -137,6 +140,16 @@ def limits_of(joint: TreeJoint) -> tuple[float, float]:
     if joint.lower is None or joint.upper is None:
         return -math.pi, math.pi
     return joint.lower, joint.upper
+
+
+def _within_soft_limits(joint: TreeJoint) -> TreeJoint:
+    """Return a joint with the smaller ones of its limits and those of its safety controller."""
+    lower, upper = joint.lower, joint.upper
+    if lower is not None and joint.soft_lower is not None:
+        lower = max(lower, joint.soft_lower)
+    if upper is not None and joint.soft_upper is not None:
+        upper = min(upper, joint.soft_upper)
+    return replace(joint, lower=lower, upper=upper)
 
 
 def _with_dependents(node: Node, joints: JointTree) -> JointTree:

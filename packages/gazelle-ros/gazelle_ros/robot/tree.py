@@ -52,6 +52,8 @@ class TreeJoint:
     lower: float | None = None
     upper: float | None = None
     mimic: TreeMimic | None = None
+    soft_lower: float | None = None
+    soft_upper: float | None = None
 
     def placed(self, position: float) -> tuple[Vector, Quaternion]:
         """Return translation and rotation of the child in the parent at a position [rad or m]."""
@@ -108,6 +110,7 @@ def _joint(element: Element) -> TreeJoint:
     axis = element.find("axis")
     limit = element.find("limit")
     bounded = limit is not None and kind in {"revolute", "prismatic"}
+    safety = element.find("safety_controller")
     return TreeJoint(
         name,
         kind,
@@ -119,7 +122,14 @@ def _joint(element: Element) -> TreeJoint:
         _number(limit, "lower", 0.0) if bounded else None,
         _number(limit, "upper", 0.0) if bounded else None,
         _mimic(element.find("mimic")),
+        _soft_limit(safety, "soft_lower_limit"),
+        _soft_limit(safety, "soft_upper_limit"),
     )
+
+
+def _soft_limit(safety: Element | None, key: str) -> float | None:
+    given = safety is not None and key in safety.attributes
+    return _number(safety, key, 0.0) if given else None
 
 
 def _mimic(element: Element | None) -> TreeMimic | None:
