@@ -253,11 +253,9 @@ def test_the_clock_is_steered_from_the_page(room):
         assert room.time == pytest.approx(room.engine.time_step)
         controls.do("reset")
         assert room.time == 0.0
-        controls._speed.value = "2"
-        controls._pace()
+        controls._pace("2")
         assert room.physics.target_rate == pytest.approx(2.0)
-        controls._speed.value = "max"
-        controls._pace()
+        controls._pace("max")
         assert room.physics.target_rate is None
 
 
@@ -330,10 +328,10 @@ def test_joints_are_moved_by_sliders(tmp_path):
             sliders = next(each for each in view._layers if type(each).__name__ == "JointSliders")
             view._context.select("arm")
             pictures(view)
-            assert (sliders._sliders["j"].min, sliders._sliders["j"].max) == (-1.0, 2.0)
+            assert (sliders._sliders["j"].shown.min, sliders._sliders["j"].shown.max) == (-1.0, 2.0)
             sim.robots["arm"].set_configuration(["j"], [0.7])
             pictures(view)
-            assert sliders._sliders["j"].value == pytest.approx(0.7, abs=2e-3)
+            assert sliders._sliders["j"].shown.value == pytest.approx(0.7, abs=2e-3)
 
 
 def test_a_model_that_is_spawned_and_selected_on_the_page_has_its_sliders_once(room, monkeypatch):
@@ -364,7 +362,7 @@ def test_a_model_that_is_spawned_and_selected_on_the_page_has_its_sliders_once(r
         spawner.join()
         pictures(view)
         kept = list(sliders._sliders.values())
-        assert {each.label for each in kept} == {"wheel_left_joint", "wheel_right_joint"}
+        assert {each.shown.label for each in kept} == {"wheel_left_joint", "wheel_right_joint"}
         assert made == kept
         assert clashes == []
 

@@ -43,8 +43,7 @@ def logged(simulation, view, count, monkeypatch):
 
 
 def seek(log, moment):
-    log._slider.value = moment
-    log._seek()
+    log._seek(moment)
     log.show(log.read())
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from gazelle.array_types import Floats
 from gazelle.viewer.page.context import PageContext
+from gazelle.viewer.page.live_input import LiveInput
 
 _MOST = 40  # joints of one model
 _TURN = math.pi
@@ -27,8 +28,8 @@ class JointSliders:
     def __init__(self, context: PageContext) -> None:
         self._context = context
         self._folder = context.gui.add_folder("Joints", expand_by_default=False, visible=False)
-        self._pool: list[Any] = []
-        self._sliders: dict[str, Any] = {}
+        self._pool: list[LiveInput] = []
+        self._sliders: dict[str, LiveInput] = {}
         self._model = ""
         context.listeners.append(self.renew)
 
@@ -48,14 +49,15 @@ class JointSliders:
     def show(self, state: dict[str, float]) -> None:
         """Move the sliders; those on wheels go round."""
         for name, value in state.items():
-            slider = self._sliders.get(name)
-            if slider is None:
+            if name not in self._sliders:
                 continue
+            live = self._sliders[name]
+            slider = live.shown
             round_about = slider.max == _TURN and slider.min == -_TURN
             angle = math.remainder(value, 2.0 * math.pi) if round_about else value
             shown = round(min(max(angle, slider.min), slider.max), 3)
             if abs(slider.value - shown) >= slider.step:
-                slider.value = shown
+                live.show(shown)
 
     def renew(self) -> None:
         """Use the sliders for the model that is selected now."""
@@ -68,30 +70,30 @@ class JointSliders:
         while len(self._pool) < len(names):
             self._pool.append(self._slider())
         self._sliders = dict(zip(names, self._pool, strict=False))
-        for name, slider in self._sliders.items():
-            self._label(slider, name)
-        for slider in self._pool[len(names) :]:
-            slider.visible = False
+        for name, live in self._sliders.items():
+            self._label(live, name)
+        for live in self._pool[len(names) :]:
+            live.shown.visible = False
 
-    def _label(self, slider: Any, name: str) -> None:
+    def _label(self, live: LiveInput, name: str) -> None:
         """Show a joint on a slider."""
         robot = self._context.simulation.robots[self._model]
         axis = robot.joint_description(name).axes[0]
         low, high = axis.lower, axis.upper
         if not (math.isfinite(low) and math.isfinite(high) and 0.0 < high - low < 100.0):
             low, high = -_TURN, _TURN
+        slider = live.shown
         slider.label, slider.min, slider.max, slider.visible = name, low, high, True
-        slider.value = min(max(0.0, low), high)
+        live.send(min(max(0.0, low), high))
 
-    def _slider(self) -> Any:
+    def _slider(self) -> LiveInput:
         context = self._context
         with self._folder:
             slider: Any = context.gui.add_slider("", -_TURN, _TURN, 0.001, 0.0)
-        context.on_user_change(slider, lambda: self._put(slider))
-        return slider
+        return LiveInput(context, slider, lambda value: self._put(slider, value))
 
-    def _put(self, slider: Any) -> None:
+    def _put(self, slider: Any, value: float) -> None:
         for name, each in self._sliders.items():
-            if each is slider:
+            if each.shown is slider:
                 robot = self._context.simulation.robots[self._model]
-                robot.set_configuration([name], np.array([slider.value]), self._context.chosen)
+                robot.set_configuration([name], np.array([value]), self._context.chosen)

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
 from html import escape
 from typing import Any
 
 from gazelle.errors import Error
 from gazelle.viewer.page.context import PageContext
+from gazelle.viewer.page.live_input import LiveInput
 from gazelle.viewer.page.part_properties import PartProperty, Value, properties_of
 
 _PERIOD = 0.2  # wall time between two readings [s]
@@ -20,40 +20,45 @@ _TABLE = '<table id="gazelle-facts" style="margin:0 0.8em;font-size:0.85em">{row
 _FACT = '<tr><td style="opacity:0.6;padding-right:1em">{label}</td><td>{value}</td></tr>'
 
 
-@dataclass
 class _Field:
-    """An input.
+    """An input for a property.
+
+    Args:
+        context: Of the page.
+        shown: The input.
+        changed: Called after a user changed the property.
 
     Attributes:
-        shown: On the panel.
+        input: Follows the property.
         what: Property that it shows.
-        sent: Value that both the panel and the simulation have.
     """
 
-    shown: Any
-    what: PartProperty | None = None
-    sent: Value = 0.0
-
-    def send(self, value: Value) -> None:
-        """Show a value."""
-        self.shown.value = self.sent = _rounded(value)
+    def __init__(self, context: PageContext, shown: Any, changed: Callable[[], None]) -> None:
+        self.what: PartProperty | None = None
+        self._after = changed
+        self.input = LiveInput(context, shown, self._write)
 
     def show(self, value: Value) -> None:
-        """Show a value that changed by itself; what was just typed and is not yet set stays."""
-        typed = self.shown.value != self.sent
-        if not typed and not math.isclose(
-            float(self.sent), float(value), rel_tol=_CLOSE, abs_tol=_CLOSE
-        ):
-            self.send(value)
+        """Show a value that changed by itself."""
+        before = float(self.input.shown.value)
+        if not math.isclose(before, float(value), rel_tol=_CLOSE, abs_tol=_CLOSE):
+            self.input.show(_rounded(value))
 
     def begin(self, what: PartProperty, value: Value) -> None:
         """Show another property."""
-        self.what = what
-        self.shown.label, self.shown.visible = what.label, True
+        self.what, shown = what, self.input.shown
+        shown.label, shown.visible = what.label, True
         if isinstance(value, float):
-            self.shown.precision = digits = min(_decimals(value), what.decimals)
-            self.shown.step = min(what.step, 10.0 ** (2 - digits))
-        self.send(value)
+            shown.precision = digits = min(_decimals(value), what.decimals)
+            shown.step = min(what.step, 10.0 ** (2 - digits))
+        self.input.send(_rounded(value))
+
+    def _write(self, value: Value) -> None:
+        try:
+            if self.what is not None and self.what.write is not None:
+                self.what.write(value)
+        finally:
+            self._after()
 
 
 class PropertyPanel:
@@ -124,13 +129,12 @@ class PropertyPanel:
         """Show values in the inputs of a pool, which grows, and hide the others."""
         while len(pool) < len(values):
             with self._folder:
-                pool.append(_Field(make()))
-            self._context.on_user_change(pool[-1].shown, self._setter(pool[-1]))
+                pool.append(_Field(self._context, make(), self._read_soon))
         for each, (what, value) in zip(pool, values, strict=False):
             each.begin(what, value)
             self._set.append((what, each))
         for each in pool[len(values) :]:
-            each.what, each.shown.visible = None, False
+            each.what, each.input.shown.visible = None, False
 
     def _number(self) -> Any:
         locked = self._context.only_looking
@@ -139,17 +143,9 @@ class PropertyPanel:
     def _box(self) -> Any:
         return self._context.gui.add_checkbox("", False, disabled=self._context.only_looking)
 
-    def _setter(self, each: _Field) -> Callable[[], None]:
-        def put() -> None:
-            value = each.shown.value
-            try:
-                if each.what is not None and each.what.write is not None:
-                    each.what.write(value)
-            finally:
-                each.sent = value
-                self._next = 0.0  # show what the simulation made of it
-
-        return put
+    def _read_soon(self) -> None:
+        """Show with the next picture what the simulation made of a change."""
+        self._next = 0.0
 
 
 def _decimals(value: float) -> int:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from gazelle.viewer.page.context import PageContext
+from gazelle.viewer.page.live_input import LiveInput
 from gazelle.viewer.page.pace_meter import PaceMeter
 
 _SPEEDS = ("0.1", "0.25", "0.5", "1", "2", "5", "10", "max")
@@ -41,15 +42,15 @@ class RunControls:
         self._status_text = ""
         gui, careful = context.gui, context.careful
         self._status = gui.add_markdown("")
-        self._speed: Any = None
+        self._speed: LiveInput | None = None
         if context.only_looking:
             return
         with gui.add_folder("Run"):
             self._run = gui.add_button_group("Clock", ("run", "pause", "step", "reset"))
             self._steps = gui.add_number("Steps", 1, min=1, max=1_000_000, step=1)
-            self._speed = gui.add_dropdown("Speed", _SPEEDS, initial_value="1")
+            speeds = gui.add_dropdown("Speed", _SPEEDS, initial_value="1")
+        self._speed = LiveInput(context, speeds, self._pace)
         self._run.on_click(lambda event: careful(lambda: self.do(event.target.value)))
-        context.on_user_change(self._speed, self._pace)
 
     def read(self) -> ClockState:
         """Return the clock now."""
@@ -58,10 +59,11 @@ class RunControls:
 
     def show(self, state: ClockState) -> None:
         """Show the clock."""
-        if self._speed is not None and self._speed.value != (speed := _name(state.speed)):
-            if speed not in self._speed.options:
-                self._speed.options = (*_SPEEDS, speed)
-            self._speed.value = speed
+        if self._speed is not None and not self._speed.pending:
+            speed = _name(state.speed)
+            if speed not in self._speed.shown.options:
+                self._speed.shown.options = (*_SPEEDS, speed)
+            self._speed.show(speed)
         if state.paused or state.speed != self._speed_before:
             self._meter.forget()
         self._speed_before = state.speed
@@ -95,8 +97,8 @@ class RunControls:
             case _:
                 simulation.reset()
 
-    def _pace(self) -> None:
-        set_speed(self._context.simulation, self._speed.value)
+    def _pace(self, speed: str) -> None:
+        set_speed(self._context.simulation, speed)
 
 
 def set_speed(simulation: Any, speed: str) -> None:

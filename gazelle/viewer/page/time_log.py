@@ -8,6 +8,7 @@ from typing import Any
 
 from gazelle.errors import SimulationError
 from gazelle.viewer.page.context import PageContext
+from gazelle.viewer.page.live_input import LiveInput
 
 _PERIOD = 0.1  # wall time between two states [s]
 _SHARE = 0.05  # of the time that taking states takes at most
@@ -34,11 +35,11 @@ class TimeLog:
         self._next = 0.0
         gui = context.gui
         self._on = gui.add_checkbox("Keep a log", initial_value=False)
-        self._slider: Any = gui.add_slider("Time [s]", 0.0, 1.0, _STEP, 0.0, disabled=True)
+        slider = gui.add_slider("Time [s]", 0.0, 1.0, _STEP, 0.0, disabled=True)
+        self._slider = LiveInput(context, slider, self._seek)
         self._play = gui.add_button("Play the log", disabled=True)
         self._info: Any = gui.add_markdown("")
         context.on_user_change(self._on, self._switch)
-        context.on_user_change(self._slider, self._seek)
         self._play.on_click(lambda _event: context.careful(self._replay))
 
     def read(self) -> tuple[float, float, float] | None:
@@ -59,7 +60,7 @@ class TimeLog:
 
     def show(self, state: tuple[float, float, float] | None) -> None:
         """Show the times on the slider."""
-        slider, empty = self._slider, state is None
+        slider, empty = self._slider.shown, state is None
         if slider.disabled != empty:
             slider.disabled = self._play.disabled = empty
         text = f"{len(self._times)} states" if self._times else ""
@@ -73,9 +74,7 @@ class TimeLog:
         if slider.min != first:
             slider.min = first
         if self._at is None or self._playing:
-            shown = min(max(now, first), last)
-            if slider.value != shown:
-                slider.value = shown
+            self._slider.show(min(max(now, first), last))
 
     def renew(self) -> None:
         """Clear the log: its states are of other models."""
@@ -99,9 +98,9 @@ class TimeLog:
             del self._times[1::2], self._states[1::2]
         self._next = begin + max(_PERIOD, (time.monotonic() - begin) / _SHARE)
 
-    def _seek(self) -> None:
+    def _seek(self, wanted: float) -> None:
         """Restore the state at the slider's time; the simulation is paused."""
-        simulation, wanted = self._context.simulation, float(self._slider.value)
+        simulation = self._context.simulation
         with simulation.lock:
             simulation.pause()
             self._playing = False
