@@ -66,11 +66,11 @@ class Controllers(Closeable):
         Raises:
             ClientError: It takes longer than ``timeout`` [s of wall time].
         """
-        wanted = _several(names)
+        listed = _several(names)
         deadline = deadline_after(timeout)
         while True:
             found = self.states()
-            missing = [name for name in wanted if found.get(name) != state]
+            missing = [name for name in listed if found.get(name) != state]
             if not missing:
                 return
             if time.monotonic() > deadline:

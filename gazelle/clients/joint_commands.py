@@ -113,19 +113,23 @@ class JointCommander(Closeable):
             ClientError: As ``send``, and when a joint does not come there in time.
         """
         deadline = deadline_after(timeout)
-        wanted = dict(zip(self.joints, self._in_order(targets), strict=True))
-        self.send(wanted, timeout)
+        positions = dict(zip(self.joints, self._in_order(targets), strict=True))
+        self.send(positions, timeout)
         while True:
             with self._news:
                 received = self._news.wait(max(0.0, deadline - time.monotonic()))
                 there = self.positions
-            left = {name: wanted[name] - value for name, value in there.items()}
+            left = {name: positions[name] - value for name, value in there.items()}
             if received and progress is not None:
                 progress(left)
-            if received and set(left) == set(wanted) and max(map(abs, left.values())) <= tolerance:
+            if (
+                received
+                and set(left) == set(positions)
+                and max(map(abs, left.values())) <= tolerance
+            ):
                 return there
             if time.monotonic() > deadline:
-                raise ClientError(self._not_there(left, wanted, timeout))
+                raise ClientError(self._not_there(left, positions, timeout))
 
     def close(self) -> None:
         """Leave the topics; the last command stays in effect."""

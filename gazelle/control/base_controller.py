@@ -132,12 +132,12 @@ class BaseController(Controller):
             )
         linear = rows_of("linear velocity", twist.linear, 3, len(rows))
         angular = rows_of("angular velocity", twist.angular, 3, len(rows))
-        wanted = np.stack((linear[:, 0], linear[:, 1], angular[:, 2]), axis=1)
-        if not np.isfinite(wanted).all():
+        velocities = np.stack((linear[:, 0], linear[:, 1], angular[:, 2]), axis=1)
+        if not np.isfinite(velocities).all():
             text = f"controller '{self.name}' ignores a command that is not finite"
             warnings.warn(ControlWarning(text), stacklevel=3)
             return
-        self.memory.wanted[rows] = wanted
+        self.memory.wanted[rows] = velocities
         self.memory.stamps[rows] = self.now_ns
 
     def _brake(self, rows: Worlds) -> None:

@@ -103,13 +103,13 @@ class DiffDriveController(BaseController):
 
     def _state(self) -> TrajectoryState:
         position, velocity = self._wheels.position, self._wheels.velocity
-        wanted = self._wheels.command()
-        onward = position + wanted * self.period
+        velocities = self._wheels.command()
+        onward = position + velocities * self.period
         return TrajectoryState(
             self.now_ns,
             self._wheels.names,
-            JointSample(onward, wanted),
+            JointSample(onward, velocities),
             JointSample(position, velocity),
-            JointSample(onward - position, wanted - velocity),
+            JointSample(onward - position, velocities - velocity),
             np.full(self.nworld, self.period),
         )

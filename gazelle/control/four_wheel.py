@@ -90,12 +90,12 @@ class FourWheelSteeringController(BaseController):
         rows = self.rows(worlds)
         if not self.running:
             raise ControlError("can't accept new commands: controller is not running")
-        wanted = (command.front_angle, command.rear_angle, command.speed)
-        if not all(math.isfinite(each) for each in wanted):
+        target = (command.front_angle, command.rear_angle, command.speed)
+        if not all(math.isfinite(each) for each in target):
             text = f"controller '{self.name}' ignores a command that is not finite"
             warnings.warn(ControlWarning(text), stacklevel=3)
             return
-        self._angles[rows] = np.clip(wanted[:2], -math.pi / 2.0, math.pi / 2.0)
+        self._angles[rows] = np.clip(target[:2], -math.pi / 2.0, math.pi / 2.0)
         self._by_twist[rows] = False
         self.command_speed(command.speed, rows)
 

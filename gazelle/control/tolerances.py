@@ -52,8 +52,8 @@ def _changed(bounds: Floats, changes: Iterable[JointTolerance], joints: Sequence
     for each in changes:
         if each.name in joints:
             row = list(joints).index(each.name)
-            wanted = (each.position, each.velocity, each.acceleration)
-            for column, value in enumerate(wanted):
+            bounds_of_joint = (each.position, each.velocity, each.acceleration)
+            for column, value in enumerate(bounds_of_joint):
                 if value != 0.0:
                     changed[row, column] = max(value, 0.0)
     return changed

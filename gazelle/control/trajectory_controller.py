@@ -308,14 +308,14 @@ class JointTrajectoryController(Controller):
     # -- publishing -------------------------------------------------------------------------
 
     def _state(self) -> TrajectoryState:
-        wanted = self._wanted()
+        desired = self._wanted()
         position, velocity = self._joints.position, self._joints.velocity
         return TrajectoryState(
             self.now_ns,
             self._names,
-            wanted,
+            desired,
             JointSample(position, velocity),
-            JointSample(shortest(position, wanted.positions), wanted.velocities - velocity),
+            JointSample(shortest(position, desired.positions), desired.velocities - velocity),
             self._uptime - self._table.begins(),
         )
 

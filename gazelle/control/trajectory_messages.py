@@ -33,26 +33,26 @@ def columns_of(trajectory: JointTrajectory, names: Sequence[str], *, partial: bo
         TrajectoryRefusedError: There are no names, one is unknown or there twice, or some are missing
             that must not be.
     """
-    wanted = tuple(names) if trajectory.names is None else trajectory.names
-    if not wanted:
+    joints = tuple(names) if trajectory.names is None else trajectory.names
+    if not joints:
         raise TrajectoryRefusedError("the goal names no joints", INVALID_JOINTS)
-    unknown = [name for name in wanted if name not in names]
+    unknown = [name for name in joints if name not in names]
     if unknown:
         raise TrajectoryRefusedError(
             f"joints on incoming goal don't match the controller joints: there is no '{unknown[0]}'",
             INVALID_JOINTS,
             did_you_mean(unknown[0], names),
         )
-    if len(set(wanted)) != len(wanted):
+    if len(set(joints)) != len(joints):
         raise TrajectoryRefusedError("a joint is named twice", INVALID_JOINTS)
-    if len(wanted) != len(names) and not partial:
-        missing = ", ".join(name for name in names if name not in wanted)
+    if len(joints) != len(names) and not partial:
+        missing = ", ".join(name for name in names if name not in joints)
         raise TrajectoryRefusedError(
             f"joints on incoming goal don't match the controller joints: without {missing}",
             INVALID_JOINTS,
             "set allow_partial_joints_goal to move some of them",
         )
-    return np.array([list(names).index(name) for name in wanted], np.intp)
+    return np.array([list(names).index(name) for name in joints], np.intp)
 
 
 def check_points(trajectory: JointTrajectory, width: int) -> None:

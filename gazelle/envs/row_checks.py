@@ -95,9 +95,9 @@ def _checked(name: str, values: Any, shape: tuple[Any, ...], hint: str, kinds: s
     leading = shape[:-1] if shape[-1:] == (...,) else shape
     fits = rows.shape[: len(leading)] == leading
     if not fits or (leading is shape and rows.ndim != len(shape)):
-        wanted = f"({', '.join('...' if side is ... else str(side) for side in shape)}"
-        wanted += ",)" if len(shape) == 1 else ")"
-        raise TaskError(f"{name} has shape {rows.shape}, expected {wanted}", hint=hint)
+        expected = f"({', '.join('...' if side is ... else str(side) for side in shape)}"
+        expected += ",)" if len(shape) == 1 else ")"
+        raise TaskError(f"{name} has shape {rows.shape}, expected {expected}", hint=hint)
     if rows.dtype.kind not in kinds:
         what = "bools" if kinds == "b" else "numbers"
         raise TaskError(f"{name} is of {rows.dtype}, expected {what}", hint=hint)

@@ -217,7 +217,7 @@ def checked_actions(actions: ArrayLike, space: gym.Space[Any], nworld: int) -> N
             )
         return rows.astype(np.int64)
     shape = (nworld, *(space.shape or ()))
-    wanted = rows.astype(np.float64)
-    if rows.shape != shape or np.count_nonzero(np.isfinite(wanted)) < wanted.size:
+    values = rows.astype(np.float64)
+    if rows.shape != shape or np.count_nonzero(np.isfinite(values)) < values.size:
         raise TaskError(f"actions must be finite, of shape {shape}, not {rows.shape}")
-    return wanted
+    return values

@@ -61,15 +61,15 @@ class Pointing:
             place: In the frame of ``base`` [m], shape (3,).
             start: Positions of the joints, shape (joints,).
         """
-        wanted = np.asarray(place, float)
+        target = np.asarray(place, float)
         here = np.clip(np.asarray(start, float), self._low, self._high)
-        miss, damping = self._miss(here, wanted), _DAMPING
+        miss, damping = self._miss(here, target), _DAMPING
         for _ in range(_STEPS):
             if np.linalg.norm(miss) < _SHARP:
                 break
             slopes = np.stack(
                 [
-                    (self._miss(here + _DIFFERENCE * unit, wanted) - miss) / _DIFFERENCE
+                    (self._miss(here + _DIFFERENCE * unit, target) - miss) / _DIFFERENCE
                     for unit in np.eye(len(here))
                 ],
                 axis=1,
@@ -77,12 +77,12 @@ class Pointing:
             square = slopes.T @ slopes + damping * np.eye(len(here))
             step = np.clip(np.linalg.solve(square, -slopes.T @ miss), -_LEAP, _LEAP)
             there = np.clip(here + step, self._low, self._high)
-            then = self._miss(there, wanted)
+            then = self._miss(there, target)
             if np.linalg.norm(then) < np.linalg.norm(miss):
                 here, miss, damping = there, then, max(damping / 10.0, 1e-12)
             else:
                 damping *= 10.0
-        return here, self.angle(here, wanted)
+        return here, self.angle(here, target)
 
     def angle(self, positions: ArrayLike, place: ArrayLike) -> float:
         """Return the angle between the axis and the direction to a place [rad], see ``solve``."""

@@ -76,8 +76,8 @@ class LinearBattery(ModelPlugin):
             and entry.plugin.battery == self._battery
         )
         share = min(1.0, interval / self._tau)
-        wanted = taken / np.maximum(self.voltage, 1e-3)
-        self.current += share * (wanted - self.current)
+        current = taken / np.maximum(self.voltage, 1e-3)
+        self.current += share * (current - self.current)
         self.charge = np.maximum(self.charge - interval * self.current / 3600.0, 0.0)
         self.voltage = self._open_voltage() - self._resistance * self.current
 

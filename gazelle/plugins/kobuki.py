@@ -226,10 +226,10 @@ class KobukiSystem(OdometrySystem[Kobuki]):
         self._commands.clear_old()
         forward = self._commands.linear[..., 0] * self._power
         across = self._commands.angular[..., 2] * self._half * self._power
-        wanted = np.empty((*forward.shape, 2))
-        wanted[..., 0] = (forward - across) / self._radius
-        wanted[..., 1] = (forward + across) / self._radius
-        self._wheels.drive(wanted.reshape(len(wanted), -1))
+        speeds = np.empty((*forward.shape, 2))
+        speeds[..., 0] = (forward - across) / self._radius
+        speeds[..., 1] = (forward + across) / self._radius
+        self._wheels.drive(speeds.reshape(len(speeds), -1))
 
     def publish(self, plugin: Kobuki, measured: Odometry | None) -> None:
         """Publish all outputs of one base."""

@@ -25,13 +25,13 @@ class SelectedRosControl(RosControl):
         """Return the transmissions of named joints."""
         if "joints" not in self._parameters:
             return model.transmissions
-        wanted = self._parameters.get("joints", "").split()
+        names = self._parameters.get("joints", "").split()
         joints = {each.joints[0][0]: each for each in model.transmissions if each.joints}
-        for name in wanted:
+        for name in names:
             if name not in joints:
                 text = (
                     f"<joints> names '{name}', which has no transmission and is not controlled; "
                     f"{did_you_mean(name, joints)}"
                 )
                 warnings.warn(ControlWarning(located(text, self._parameters.source)), stacklevel=4)
-        return [each for each in model.transmissions if each.joints and each.joints[0][0] in wanted]
+        return [each for each in model.transmissions if each.joints and each.joints[0][0] in names]

@@ -72,9 +72,9 @@ def spawn_where_free(
     robot = spawn_numbered(simulation, model, pose)
     if not _penetrates(simulation, robot):
         return SpawnedModel(robot)
-    wanted = (pose or Pose()) * model.pose
+    start = (pose or Pose()) * model.pose
     for x, y in _offsets():
-        there = _shifted(wanted, x, y)
+        there = _shifted(start, x, y)
         robot.set_pose(there.position, there.quaternion)
         if not _penetrates(simulation, robot):
             # Spawned again there, since a reset returns it to its spawn pose.
@@ -82,7 +82,7 @@ def spawn_where_free(
             simulation.delete(robot.name)
             robot = simulation.spawn(free, pose=there, namespace=robot.namespace)
             return SpawnedModel(robot, moved_to=(there.position[0], there.position[1]))
-    robot.set_pose(wanted.position, wanted.quaternion)
+    robot.set_pose(start.position, start.quaternion)
     return SpawnedModel(robot, stuck=True)
 
 

@@ -69,10 +69,10 @@ class JointArray:
             SimulationError: The velocities are of another shape, or one is no number.
         """
         try:
-            wanted = np.broadcast_to(np.asarray(velocity, np.float64), self._shape)
+            velocities = np.broadcast_to(np.asarray(velocity, np.float64), self._shape)
         except (TypeError, ValueError, OverflowError) as error:
             raise SimulationError(
                 f"the velocities of {self._shape[1]} motors cannot be {velocity!r}: {error}",
                 hint=f"give a row of {self._shape[1]} for each of {self._shape[0]} worlds",
             ) from None
-        self._rows.set_motor_velocity(wanted, chosen)
+        self._rows.set_motor_velocity(velocities, chosen)

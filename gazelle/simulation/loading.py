@@ -94,8 +94,8 @@ def _fits(found: type[BasePlugin], element: str, name: str, plugin: description.
     kinds = [vars(each).get("belongs_into", "") for each in found.__mro__]
     if element in kinds:
         return True
-    wanted = " or ".join(f"a <{tag}>" for tag in kinds if tag)
-    text = f"{name} ({plugin.filename}) belongs into {wanted}, not into a <{element}>"
+    expected = " or ".join(f"a <{tag}>" for tag in kinds if tag)
+    text = f"{name} ({plugin.filename}) belongs into {expected}, not into a <{element}>"
     said = located(f"{text}, and is left out", plugin.source)
     warnings.warn(SimulationWarning(said), stacklevel=5)
     return False

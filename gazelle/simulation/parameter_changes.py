@@ -23,11 +23,11 @@ def set_parameters(
     """Set several parameters, or none of them if one cannot be."""
     engine = simulation.engine
     some = chosen(worlds, simulation.nworld)
-    wanted = {kind: values for kind, values in parameters.items() if values is not None}
+    changes = {kind: values for kind, values in parameters.items() if values is not None}
 
     before: dict[str, Floats] = {}
     try:
-        for kind, values in wanted.items():
+        for kind, values in changes.items():
             old = engine.parameter(kind, name, some)
             what, alike = f"the {kind} of '{name}'", kind not in VECTORS
             rows = numbers(what, values, old.shape[1], len(old), alike=alike)

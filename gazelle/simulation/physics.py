@@ -379,5 +379,5 @@ def _check_number(name: str, value: Any) -> None:
     except (TypeError, OverflowError):
         possible = False
     if not possible:
-        wanted = "an int" if name in _WHOLE else "a finite number"
-        raise SimulationError(f"the physics property '{name}' must be {wanted}, not {value!r}")
+        expected = "an int" if name in _WHOLE else "a finite number"
+        raise SimulationError(f"the physics property '{name}' must be {expected}, not {value!r}")

@@ -38,8 +38,8 @@ class DriveInput(TwistInput):
         super().send(linear, angular, worlds)
         some = chosen(worlds, len(self.linear))
         rows = slice(None) if some is None else some
-        wanted = np.column_stack((self.linear[rows, :2], self.angular[rows, 2]))
-        self._commands()[rows] = wanted
+        velocities = np.column_stack((self.linear[rows, :2], self.angular[rows, 2]))
+        self._commands()[rows] = velocities
 
     @between_steps
     def clear(self, worlds: Worlds | None = None) -> None:

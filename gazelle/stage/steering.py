@@ -36,6 +36,6 @@ class Steering:
         velocity = driven.copy()
         speed, angle = driven[:, self._cars, 0], driven[:, self._cars, 2]
         turn = speed * np.sin(angle) / self._wheelbase
-        wanted = np.stack((speed * np.cos(angle), np.zeros_like(speed), turn), axis=-1)
-        velocity[:, self._cars] = np.clip(wanted, self._least, self._most)
+        velocities = np.stack((speed * np.cos(angle), np.zeros_like(speed), turn), axis=-1)
+        velocity[:, self._cars] = np.clip(velocities, self._least, self._most)
         return velocity

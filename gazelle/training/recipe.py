@@ -212,9 +212,9 @@ class Recipe:
 
 def _check_settings(algo: str, settings: Settings) -> None:
     """Check that settings are those of an algorithm, and that it takes notice of them."""
-    wanted = _settings_of(algo)
-    if not isinstance(settings, wanted):
-        raise TaskError(f"a recipe for {algo} needs {wanted.__name__}")
+    settings_class = _settings_of(algo)
+    if not isinstance(settings, settings_class):
+        raise TaskError(f"a recipe for {algo} needs {settings_class.__name__}")
     if not isinstance(settings, OffPolicySettings):
         return
     check_supported(algo, settings)

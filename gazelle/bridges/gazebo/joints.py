@@ -60,15 +60,15 @@ class JointServices:
                 return no("SetJointProperties: joint not found")
             return yes("SetJointProperties: properties set")
         _, joint = found
-        wanted = request.ode_joint_config
+        config = request.ode_joint_config
         try:
             joint.set_properties(
-                damping=_first(wanted.damping),
-                lower=_first(wanted.loStop),
-                upper=_first(wanted.hiStop),
+                damping=_first(config.damping),
+                lower=_first(config.loStop),
+                upper=_first(config.hiStop),
                 worlds=self._entities.worlds,
             )
-            self._set_motor(joint, list(wanted.fmax), list(wanted.vel))
+            self._set_motor(joint, list(config.fmax), list(config.vel))
         except Error as error:
             return no(f"SetJointProperties: {error}")
         return yes("SetJointProperties: properties set")

@@ -194,10 +194,10 @@ class AGVFleetTask(BatchedTask):
         for attempt in range(_TRIES):
             drawn = self._stream.uniform(1, pending)[:, 0]
             chosen[pending] = (drawn * len(self._places)).astype(np.intp)
-            wanted = self._places[chosen[pending]]
+            places = self._places[chosen[pending]]
             halls = pending // self.agents
             others = at.reshape(self.halls, self.agents, 2)[halls]
-            away = np.hypot(*np.moveaxis(others - wanted[:, None, :], 2, 0)).min(axis=1)
+            away = np.hypot(*np.moveaxis(others - places[:, None, :], 2, 0)).min(axis=1)
             free = (away > hall.APART) | (attempt == _TRIES - 1)
             # Of those that draw the same place in the same hall the first gets it.
             key = halls * len(self._places) + chosen[pending]
@@ -205,7 +205,7 @@ class AGVFleetTask(BatchedTask):
             first = np.zeros(len(key), np.bool_)
             first[np.unique(key, return_index=True)[1]] = True
             done = free & first
-            at[pending[done]] = wanted[done]
+            at[pending[done]] = places[done]
             pending = pending[~done]
             if not len(pending):
                 break

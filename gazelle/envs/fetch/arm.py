@@ -119,8 +119,8 @@ class ReachingArm(CarriedGripper):
         now = np.hstack([joint.positions() for joint in self._joints])
         states = np.tile(self._zero, (len(now), 1))
         states[:, self._columns] = now
-        wanted = self._kinematics.follow(self._poses(self.position(None) + way), states)
-        rates = (wanted - now) / period
+        targets = self._kinematics.follow(self._poses(self.position(None) + way), states)
+        rates = (targets - now) / period
         # All of them slower where one would be too fast, so that the way stays straight.
         rates /= np.maximum(np.abs(rates).max(axis=1, keepdims=True) / _FASTEST, 1.0)
         for joint, rate in zip(self._joints, rates.T, strict=True):

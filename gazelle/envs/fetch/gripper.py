@@ -163,8 +163,8 @@ def flying_model(robot: Model, start: tuple[float, float, float], *, fingers_mov
     kept = {_WRIST, *(joint.child for joint in robot.joints if joint.name in FINGERS)}
     tip = next(frame for frame in robot.frames if frame.name == TIP)
     wrist = next(link for link in robot.links if link.name == _WRIST)
-    wanted = Pose.from_matrix(_homogeneous(DOWN, np.array(start) - DOWN @ GRIP))
-    moved = wanted * (wrist.pose * tip.pose).inverse()
+    target = Pose.from_matrix(_homogeneous(DOWN, np.array(start) - DOWN @ GRIP))
+    moved = target * (wrist.pose * tip.pose).inverse()
     links = [
         dataclasses.replace(
             each,

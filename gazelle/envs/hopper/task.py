@@ -102,9 +102,9 @@ class HopperTask(SimulationTask):
         joint, back = np.divmod(actions, 2)
         for number, handle in enumerate(self._joints):
             angle = handle.positions()[:, 0]
-            wanted = angle + np.where(joint == number, STEP * (1.0 - 2.0 * back), 0.0)
-            wanted = np.clip(wanted, LOWER[number], UPPER[number])
-            handle.drive((wanted - angle) / CONTROL_PERIOD)
+            target = angle + np.where(joint == number, STEP * (1.0 - 2.0 * back), 0.0)
+            target = np.clip(target, LOWER[number], UPPER[number])
+            handle.drive((target - angle) / CONTROL_PERIOD)
 
     def outcome(self, observation: Floats32) -> StepOutcome:
         """Return the reward.

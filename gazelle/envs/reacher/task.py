@@ -119,8 +119,8 @@ class ReachTask(SimulationTask):
             speed[(angles <= self._lower + rules.limit_margin) & (speed < 0.0)] = 0.0
             speed[(angles >= self._upper - rules.limit_margin) & (speed > 0.0)] = 0.0
         else:
-            wanted = np.clip(angles + actions, self._lower, self._upper)
-            speed = np.clip((wanted - angles) / self.control_period, -self._speeds, self._speeds)
+            targets = np.clip(angles + actions, self._lower, self._upper)
+            speed = np.clip((targets - angles) / self.control_period, -self._speeds, self._speeds)
         for number, joint in enumerate(self._joints):
             joint.drive(speed[:, number])
 

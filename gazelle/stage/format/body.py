@@ -109,19 +109,19 @@ def read_block(entity: Entity, outer: Properties) -> StageBlock:
 
 
 def _block(properties: Properties, prefix: str, entity: Entity) -> StageBlock:
-    wanted = properties.whole(f"{prefix}points", 0, least=0)
+    count = properties.whole(f"{prefix}points", 0, least=0)
     listed = {each.name for each in properties.matching(f"{prefix}point[")}
     points: list[tuple[float, float]] = []
-    if wanted > MAX_POINTS:
+    if count > MAX_POINTS:
         raise entity.fail(f"a block of more than {MAX_POINTS} points")
-    for index in range(wanted):
+    for index in range(count):
         name = f"{prefix}point[{index}]"
         if name in listed:
             x, y = properties.numbers(name, "ll", (0.0, 0.0))
             points.append((x, y))
-    if len(points) < wanted or len(listed) > wanted:
+    if len(points) < count or len(listed) > count:
         properties.reading.remark(
-            f"'points' is {wanted}, but {len(listed)} are given; {len(points)} are used",
+            f"'points' is {count}, but {len(listed)} are given; {len(points)} are used",
             entity.source,
         )
     if len(points) < 3:

@@ -151,8 +151,8 @@ def sampled(scan: ScanReading, rule: ScanRule, rays: int, *, turned: float = 0.0
     Returns:
         Ranges [m] that a float32 holds exactly, shape (rays,).
     """
-    wanted = np.linspace(rule.first_angle, rule.last_angle, rays)
-    away = np.abs(_wrapped(scan.angles(turned)[None, :] - wanted[:, None]))
+    angles = np.linspace(rule.first_angle, rule.last_angle, rays)
+    away = np.abs(_wrapped(scan.angles(turned)[None, :] - angles[:, None]))
     spacing = abs(rule.last_angle - rule.first_angle) / max(rays - 1, 1)
     usable = ~scan.failed()[None, :] & (away <= max(0.5 * spacing, 1e-6))
     ray = np.where(usable, away, np.inf).argmin(axis=1)

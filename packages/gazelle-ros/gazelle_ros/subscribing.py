@@ -111,8 +111,8 @@ class Subscription:
         mine, theirs = self.message_class._md5sum, publication.message_class._md5sum
         if headers.ANY not in {mine, theirs} and mine != theirs:
             kind = publication.message_class._type
-            wanted = self.message_class._type
-            text = f"{self.topic} carries {kind} ({theirs}), not {wanted} ({mine})"
+            expected = self.message_class._type
+            text = f"{self.topic} carries {kind} ({theirs}), not {expected} ({mine})"
             report(f"subscriber of {self.topic}", Md5MismatchError(text))
             return
         # Known before its first message comes: a subscriber added in that message's callback gets it, too.

@@ -155,8 +155,8 @@ class MujocoModelRow:
     def set_ground_motion(self, twist: ArrayLike, worlds: Worlds | None = None) -> None:
         """Set a level velocity of all links of the model, along and across its heading."""
         heading = from_yaw(yaw_of(self.placement(worlds).quaternion))
-        wanted = np.atleast_2d(np.asarray(twist, np.float64))
-        level, spin = wanted * (1.0, 1.0, 0.0), wanted * (0.0, 0.0, 1.0)
+        twists = np.atleast_2d(np.asarray(twist, np.float64))
+        level, spin = twists * (1.0, 1.0, 0.0), twists * (0.0, 0.0, 1.0)
         self.set_motion(rotate(heading, level), spin, worlds)
 
 
@@ -266,10 +266,10 @@ class MujocoModelRows:
         """Set level velocities of the models along and across their headings, joints at rest."""
         roots = self._roots.within(self._run.now())
         origin = self.placement(worlds)
-        wanted = np.broadcast_to(np.asarray(twist, np.float64), origin.position.shape)
+        twists = np.broadcast_to(np.asarray(twist, np.float64), origin.position.shape)
         heading = from_yaw(yaw_of(origin.quaternion))
-        v = rotate(heading, wanted * (1.0, 1.0, 0.0))[:, roots.owners]
-        w = (wanted * (0.0, 0.0, 1.0))[:, roots.owners]
+        v = rotate(heading, twists * (1.0, 1.0, 0.0))[:, roots.owners]
+        w = (twists * (0.0, 0.0, 1.0))[:, roots.owners]
         link = self._links[roots.links].placement(worlds)
         at_link = v + cross(w, link.position - origin.position[:, roots.owners])
         local = rotate(conjugate(link.quaternion), w)

@@ -174,11 +174,11 @@ class Bag(Closeable):
 
     @chunk_threshold.setter
     def chunk_threshold(self, size: int) -> None:
-        wanted = chunk_bytes_of(size)
+        most_bytes = chunk_bytes_of(size)
         self.flush()
-        self._chunk_threshold = wanted
+        self._chunk_threshold = most_bytes
         if self._writer is not None:
-            self._writer.chunk_bytes = wanted
+            self._writer.chunk_bytes = most_bytes
 
     @property
     def version(self) -> int:
@@ -206,12 +206,12 @@ class Bag(Closeable):
 
     def get_message_count(self, topic_filters: str | list[str] | None = None) -> int:
         """Return the number of messages, of some topics or all."""
-        wanted = self._ids(topic_filters)
+        ids = self._ids(topic_filters)
         return sum(
             count
             for chunk in self.index.chunks
             for connection, count in chunk.counts.items()
-            if wanted is None or connection in wanted
+            if ids is None or connection in ids
         )
 
     def get_start_time(self) -> float:
@@ -275,11 +275,11 @@ class Bag(Closeable):
             BagFormatError: The bag is damaged.
             RosError: A definition in the bag is malformed.
         """
-        wanted = self._ids(topics)
+        ids = self._ids(topics)
         if connection_filter is not None:
-            wanted = self._filtered(wanted, connection_filter)
+            ids = self._filtered(ids, connection_filter)
         start, end = _nanoseconds(start_time), _nanoseconds(end_time)
-        for entry in messages_of(self.stored(), self.index, wanted, start, end):
+        for entry in messages_of(self.stored(), self.index, ids, start, end):
             message = self._raw(entry) if raw else self._decoded(entry)
             seconds, nanoseconds = divmod(entry.time, SECOND)
             topic, stamp = entry.connection.topic, Time(seconds, nanoseconds)
@@ -303,8 +303,8 @@ class Bag(Closeable):
         """Return the connections of topics, with or without a slash before their names."""
         if topics is None:
             return None
-        wanted = {topics} if isinstance(topics, str) else set(topics)
-        plain = {topic.lstrip("/") for topic in wanted}
+        names = {topics} if isinstance(topics, str) else set(topics)
+        plain = {topic.lstrip("/") for topic in names}
         connections = self.index.connections.values()
         return {each.id for each in connections if each.topic.lstrip("/") in plain}
 

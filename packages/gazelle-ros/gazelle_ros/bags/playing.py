@@ -84,13 +84,13 @@ class Player:
         self._show = show
         self._files = ExitStack()
         self._bags = [self._files.enter_context(Bag(path)) for path in paths]
-        wanted = {topic.lstrip("/") for topic in options.topics}
+        topics = {topic.lstrip("/") for topic in options.topics}
         self._pausing = {topic.lstrip("/") for topic in options.pause_topics}
         self._wanted = [
             {
                 each.id
                 for each in bag.index.connections.values()
-                if not wanted or each.topic.lstrip("/") in wanted
+                if not topics or each.topic.lstrip("/") in topics
             }
             for bag in self._bags
         ]
