@@ -243,3 +243,25 @@ def test_planners_are_found_by_type():
     assert "did you mean 'navfn/NavfnROS'?" in caught.value.hint
     with pytest.raises(Error, match="cannot be imported"):
         local_planner("no_such_module:Planner")
+
+
+@pytest.mark.parametrize("start", [(0, 0), (9, 0), (9, 19), (0, 9), (19, 9), (19, 19)])
+def test_a_robot_on_the_outermost_cells_goes_inwards(start):
+    field = PotentialField(20, 20)
+    prices = np.full((20, 20), 50.0, np.float32)
+    reached = field.spread(prices, start, (9, 9), 50.0)
+    assert reached == (start[0] % 19 > 0 or start[1] % 19 > 0)
+    way = field.way_down((9, 9), start)
+    assert len(way) == 0 if not reached else tuple(way[-1]) == start
+
+
+@pytest.mark.parametrize("shape", [(3,), (2, 2), (0,), (2, 3, 1)])
+def test_a_plan_of_another_shape_is_refused(shape):
+    planner = local_planner("dwa_local_planner/DWAPlannerROS")(
+        "dwa", costmap_of_cells(np.zeros((20, 20), np.uint8)), {}, 0.1
+    )
+    for plan in (np.zeros(shape), np.full((2, 3), math.nan)):
+        with pytest.raises(Error, match="a plan is finite poses"):
+            planner.set_plan(plan)
+    assert planner.set_plan(np.zeros((2, 3)))
+    assert not planner.set_plan(np.zeros((0, 3)))
