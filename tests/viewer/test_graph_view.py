@@ -13,6 +13,7 @@ from gazelle.errors import Error
 from gazelle.viewer.graph import GraphView
 from gazelle.viewer.graph.drawing import points_of, rainbow
 from gazelle.viewer.graph.motions import motion_of, robot_of
+from gazelle.viewer.graph.pointing import nearest_on_ray
 from gazelle_ros import Master, Node, Time, WallClock, load_message
 from gazelle_ros.tf import take_transforms
 from tests.ros.graph import until
@@ -164,6 +165,24 @@ def test_scans_clouds_maps_paths_and_poses_are_drawn_in_their_frames(node, view)
     odometry.pose.pose.position.y = 4.0
     axes = say(node, view, "/odom", odometry).part("axes")
     assert axes.batched_positions.tolist() == [[0, 4, 0]]
+
+
+def test_clicks_pick_drawn_points_before_the_ground(node, view):
+    put_frames(node, view, laser=(1.0, 0.0))
+    scan = on_frame("sensor_msgs/LaserScan", "laser", angle_min=0.0, angle_increment=np.pi / 2)
+    scan.range_max, scan.ranges = 9.0, [2.0, 3.0]
+    say(node, view, "/scan", scan)
+    view._picture()
+    assert view._displays.points == pytest.approx(np.array([[3, 0, 0], [1, 3, 0]]), abs=1e-6)
+    origin, tools = np.array([3.0, 0.02, 4.0]), view._tools
+    down = np.array([0.0, 0.0, -2.0])
+    assert tools._pick(origin, down) is None
+    tools.tool = "Publish Point"
+    assert tools._pick(origin, down) == pytest.approx([3.0, 0.0, 0.0], abs=1e-6)
+    assert tools._pick(origin, -down) is None
+    assert tools._pick(np.array([3.0, 0.5, 4.0]), down) is None
+    several = np.array([[3.0, 0.0, -1.0], [3.0, 0.05, 1.0], [3.0, 1.0, 2.0]])
+    assert nearest_on_ray(origin, down, several).tolist() == [3.0, 0.05, 1.0]
 
 
 def test_clouds_of_any_layout_are_read():

@@ -88,9 +88,16 @@ class TopicDisplay:
         low = np.min([box[0] for box in boxes], axis=0)
         high = np.max([box[1] for box in boxes], axis=0)
         corners = np.array(np.meshgrid(*zip(low, high, strict=True))).reshape(3, -1).T
-        w, x, y, z = self.anchor.wxyz
-        placed = self.anchor.position + rotate(np.array([[x, y, z, w]]), corners)
+        placed = self._in_fixed(corners)
         return np.array([placed.min(axis=0), placed.max(axis=0)])
+
+    @property
+    def points(self) -> Floats:
+        """Points of a scan or cloud that is shown, in the fixed frame [m], shape (n, 3)."""
+        cloud = self.drawing.part("points")
+        if cloud is None or not self.anchor.visible:
+            return np.zeros((0, 3))
+        return self._in_fixed(np.asarray(cloud.points, np.float64))
 
     def receive(self, message: Message) -> None:
         """Keep a message for the next picture; called by any thread."""
@@ -202,6 +209,11 @@ class TopicDisplay:
         self.drawing.clear()
         self.anchor.remove()
         self._folder.remove()
+
+    def _in_fixed(self, points: Floats) -> Floats:
+        w, x, y, z = self.anchor.wxyz
+        placed: Floats = self.anchor.position + rotate(np.array([[x, y, z, w]]), points)
+        return placed
 
     def _draw(self, message: Any) -> None:
         try:

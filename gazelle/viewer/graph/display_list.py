@@ -107,6 +107,11 @@ class DisplayList:
             publishers = others.get(topic, 0)
             display.report(types.get(topic, "") if publishers else "", publishers)
 
+    @property
+    def points(self) -> Floats:
+        """Points of scans and clouds that are shown, in the fixed frame [m], shape (n, 3)."""
+        return np.vstack([np.zeros((0, 3)), *(each.points for each in self.topics.values())])
+
     def pause(self) -> None:
         """Receive nothing until the next ``draw``."""
         for display in self.topics.values():

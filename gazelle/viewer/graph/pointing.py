@@ -11,6 +11,7 @@ from gazelle.array_types import Floats
 from gazelle.viewer.graph.context import GraphContext
 
 _REACH_M = 500.0
+_NEAR = 0.015  # distance of a picked point from the ray, as a share of that from the camera
 _CLICK_M = 0.05  # drags shorter than that have no direction
 
 
@@ -21,6 +22,8 @@ class GroundPointer:
         context: Of the page.
         moved: Called while the user drags, with both ends on the ground [m], shape (3,).
         ended: Called at the end, with both ends; they are equal for a click.
+        pick: Returns what a click takes in place of the ground, by the ray's origin and direction,
+            or None.
     """
 
     def __init__(
@@ -28,8 +31,9 @@ class GroundPointer:
         context: GraphContext,
         moved: Callable[[Floats, Floats], None],
         ended: Callable[[Floats, Floats], None],
+        pick: Callable[[Floats, Floats], Floats | None],
     ) -> None:
-        self._context, self._moved, self._ended = context, moved, ended
+        self._context, self._moved, self._ended, self._pick = context, moved, ended, pick
         self._ground: Any = None
         self._start: Floats | None = None
 
@@ -60,7 +64,9 @@ class GroundPointer:
         (self._ended if event.phase == "end" else self._moved)(self._start, end)
 
     async def _click(self, event: Any) -> None:
-        found = on_ground(np.array(event.ray_origin), np.array(event.ray_direction))
+        origin, direction = np.array(event.ray_origin), np.array(event.ray_direction)
+        picked = self._pick(origin, direction)
+        found = on_ground(origin, direction) if picked is None else picked
         if found is not None:
             self._ended(found, found)
 
@@ -74,4 +80,22 @@ def on_ground(origin: Floats, direction: Floats) -> Floats | None:
     if direction[2] == 0.0 or origin[2] / direction[2] >= 0.0:
         return None
     found: Floats = origin - direction * (origin[2] / direction[2])
+    return found
+
+
+def nearest_on_ray(origin: Floats, direction: Floats, points: Floats) -> Floats | None:
+    """Return the first of some points that a ray meets or nearly meets [m], shape (3,), or None.
+
+    Args:
+        origin: Of the ray [m], shape (3,).
+        direction: Of the ray, shape (3,).
+        points: [m], shape (n, 3).
+    """
+    unit = direction / np.linalg.norm(direction)
+    along = (points - origin) @ unit
+    away = np.linalg.norm(points - origin - along[:, None] * unit, axis=1)
+    near = np.flatnonzero((along > 0.0) & (away < _NEAR * along))
+    if not len(near):
+        return None
+    found: Floats = points[near[np.argmin(along[near])]]
     return found

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,7 +11,7 @@ import numpy as np
 
 from gazelle.array_types import Floats
 from gazelle.viewer.graph.context import GraphContext
-from gazelle.viewer.graph.pointing import GroundPointer
+from gazelle.viewer.graph.pointing import GroundPointer, nearest_on_ray
 from gazelle_ros.msgs import geometry_msgs, std_msgs
 
 MOVE = "Move camera"
@@ -19,7 +20,7 @@ _HINTS = {
     MOVE: "",
     GOAL: "Press where the robot is to go and drag to where it is to look.",
     ESTIMATE: "Press where the robot is and drag to where it looks.",
-    POINT: "Click on a point.",
+    POINT: "Click on a point of a scan or cloud, or on the ground.",
     MEASURE: "Drag from one point to the other.",
 }
 _COLORS = {GOAL: (200, 60, 200), ESTIMATE: (40, 160, 70), POINT: (230, 150, 20), MEASURE: (50, 110, 190)}  # fmt: skip
@@ -47,15 +48,16 @@ class PointerTools:
 
     Args:
         context: Of the page.
+        points: Returns the points that displays show [m], shape (n, 3).
 
     Attributes:
         tool: The one in use.
     """
 
-    def __init__(self, context: GraphContext) -> None:
-        self._context = context
+    def __init__(self, context: GraphContext, points: Callable[[], Floats]) -> None:
+        self._context, self._points = context, points
         self.tool = MOVE
-        self._pointer = GroundPointer(context, self._preview, self._use)
+        self._pointer = GroundPointer(context, self._preview, self._use, self._pick)
         self._publishers = {
             name: context.node.advertise(target.topic, target.kind, 1)
             for name, target in _TARGETS.items()
@@ -107,6 +109,9 @@ class PointerTools:
                 )
             ]  # fmt: skip
         self._marks[tool] = marks
+
+    def _pick(self, origin: Floats, direction: Floats) -> Floats | None:
+        return nearest_on_ray(origin, direction, self._points()) if self.tool == POINT else None
 
     def _use(self, start: Floats, end: Floats) -> None:
         self._context.careful(lambda: self._finish(start, end))

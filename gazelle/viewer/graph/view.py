@@ -115,7 +115,7 @@ class GraphView(Closeable):
         self._status: Any = gui.add_markdown("waiting for the graph ...")
         self._frame: Any = gui.add_dropdown("Fixed frame", (context.requested_frame or _AUTOMATIC,))
         context.on_user_change(self._frame, self._choose_frame)
-        self._tools = PointerTools(context)
+        self._tools = PointerTools(context, lambda: self._displays.points)
         self._fitter = ViewFitter(context)
         context.on_user_click(
             gui.add_button("Fit view"), lambda: self._fitter.fit(self._displays.extent)
