@@ -28,6 +28,13 @@ _SIDES: Final = {
 }
 """Heading less that of the path [rad], by mode; 4 is backward, 5 leftward and 6 rightward."""
 _MODES: Final = range(7)
+_LIMITS: Final = {
+    "lethal_cost": (1, 255),
+    "neutral_cost": (1, 255),
+    "cost_factor": (0.01, 5.0),
+    "orientation_window_size": (1, 255),
+}
+"""Least and greatest values; others become the nearest ones, as dynamic_reconfigure makes them."""
 _STRAIGHT_RAD: Final = 0.35
 """Greatest change of heading between two poses of a straight line."""
 
@@ -59,6 +66,11 @@ class GlobalPlannerSettings:
     planner_window_y: float = 0.0
 
     def __post_init__(self) -> None:
+        for name, (least, most) in _LIMITS.items():
+            value = getattr(self, name)
+            if math.isnan(value):
+                raise Error(f"'{name}' is a number from {least} to {most}, not {value}")
+            object.__setattr__(self, name, min(max(value, least), most))
         if self.orientation_mode not in _MODES:
             raise Error(f"'orientation_mode' is 0 to {_MODES[-1]}, not {self.orientation_mode}")
         if not 0 < self.publish_scale <= 100:

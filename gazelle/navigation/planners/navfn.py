@@ -60,9 +60,9 @@ class PotentialPlanner(GlobalPlannerPlugin):
         """Return the cheapest path; see `GlobalPlannerPlugin`."""
         first = self.costmap.cell_of(start[0], start[1])
         last = self.costmap.cell_of(goal[0], goal[1])
-        if first is None or last is None:
-            return NO_PLAN
         table = self.prices()
+        if first is None or last is None or not table.any():
+            return NO_PLAN
         prices = table.take(self.costmap.cells)
         # The cell of the robot is free, whatever the map has there.
         prices[first[1], first[0]] = table[0]
