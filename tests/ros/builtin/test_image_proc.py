@@ -230,6 +230,15 @@ def test_a_part_has_topics_of_its_own(graph, make_node):
     assert got["/camera_out/camera_info"][0].binning_x == 2
 
 
+def test_parameters_out_of_their_limits_become_the_nearest_ones(make_node):
+    node = make_node("crop")
+    node.set_param("/crop/decimation_x", 99)
+    node.set_param("/crop/interpolation", -3)
+    made = CropDecimate(node)._tuned.settings
+    assert (made.decimation_x, made.decimation_y, made.interpolation) == (16, 1, 0)
+    assert node.get_param("/crop/decimation_x") == 16
+
+
 def test_a_camera_of_another_size_sees_the_same():
     settings = ResizeSettings(scale_width=0.5, scale_height=2.0)
     info = resized_camera(settings, camera())

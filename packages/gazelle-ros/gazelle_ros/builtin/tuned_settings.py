@@ -72,7 +72,6 @@ class TunedSettings(Generic[Settings]):
         change: Callable[[Settings], object],
         namespace: str = "~",
     ) -> None:
-        self.settings = settings
         self._change = change
         self._lock = threading.Lock()
         self.tunables: Mapping[str, TunedSetting] = {
@@ -80,6 +79,10 @@ class TunedSettings(Generic[Settings]):
             for each in fields(settings)  # type: ignore[arg-type]  # a dataclass
             if "tuned" in each.metadata
         }
+        self.settings = settings
+        first = {name: each.clamp(getattr(settings, name)) for name, each in self.tunables.items()}
+        if first != self.values:
+            self.send(**first)
         ReconfigureServer(node, node.resolve(namespace), self)
 
     @property
