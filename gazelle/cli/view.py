@@ -3,6 +3,7 @@ machine.
 
   gazelle view my_robot.urdf.xacro       # its joints have sliders
   gazelle view turtlebot3_world
+  gazelle view run.jsonl                 # a recording, with a time slider
   gazelle view                           # ROS_MASTER_URI's graph
 
 A file stands still until it is started on the page. Of a graph the page shows
@@ -14,6 +15,7 @@ from __future__ import annotations
 
 import argparse
 import time
+from pathlib import Path
 
 from gazelle.cli.grounding import add_ground
 from gazelle.cli.run import go
@@ -25,7 +27,10 @@ from gazelle_ros.base.output import say
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument(
-        "file", metavar="FILE", nargs="?", help="a world or robot; without it the ROS graph"
+        "file",
+        metavar="FILE",
+        nargs="?",
+        help="a world, robot or recording; without it the ROS graph",
     )
     parser.add_argument("--engine", metavar="NAME", help="mujoco or planar")
     parser.add_argument("--seed", metavar="N", type=int, default=0, help="default 0")
@@ -48,7 +53,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Run the command; returns the exit code."""
-    return _graph(args) if args.file is None else _file(args)
+    if args.file is None:
+        return _graph(args)
+    return _recording(args) if Path(args.file).suffix == ".jsonl" else _file(args)
 
 
 def _file(args: argparse.Namespace) -> int:
@@ -60,6 +67,16 @@ def _file(args: argparse.Namespace) -> int:
     args.seconds, args.rate, args.paused = None, 1.0, True
     with Simulation(world, engine, seed=args.seed) as sim, viewing(sim, args) as page:
         return go(sim, args, page)
+
+
+def _recording(args: argparse.Namespace) -> int:
+    from gazelle.simulation import Replay
+    from gazelle.viewer import LiveView
+
+    args.seconds, args.rate, args.paused = None, 1.0, True
+    with Replay(args.file) as replay, LiveView(replay.simulation, port=args.view) as view:
+        view.show_recording(replay)
+        return go(replay.simulation, args, f"view {view.url}\n")
 
 
 def _graph(args: argparse.Namespace) -> int:

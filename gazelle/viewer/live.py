@@ -12,7 +12,7 @@ import numpy as np
 
 from gazelle.argument_checks import checked
 from gazelle.errors import Error, SimulationError, SimulationWarning
-from gazelle.simulation import Robot, Simulation
+from gazelle.simulation import Replay, Robot, Simulation
 from gazelle.simulation.inputs import one_world
 from gazelle.viewer.page.camera_insets import CameraInsets
 from gazelle.viewer.page.context import ROOT, OptionalLayer, PageContext, PageLayer, spots_of
@@ -117,6 +117,20 @@ class LiveView(Closeable):
         with self._simulation.lock:
             self._context.worlds[0] = which
 
+    def show_recording(self, replay: Replay) -> None:
+        """Run a recording to its end, for the slider of the log to go through.
+
+        Args:
+            replay: Of the simulation that is shown, with nothing done yet.
+
+        Raises:
+            SimulationError: The recording is damaged, or the run does not do the same again.
+            Error: The page is only to look at.
+        """
+        if self._log is None:
+            raise Error("a page that is only to look at has no log")
+        self._log.fill(replay)
+
     def close(self) -> None:
         """Stop showing it, and give the port back; a second call does nothing."""
         if self._stop.is_set():
@@ -157,9 +171,11 @@ class LiveView(Closeable):
                 tree, properties = EntityTree(context, self._server), PropertyPanel(context)
             with left.add_tab("Speed"):
                 speed = SpeedPlots(context)
+            self._log: TimeLog | None = None
             if not only_looking:
                 with left.add_tab("Log"):
-                    steering.append(TimeLog(context))
+                    self._log = TimeLog(context)
+                steering.append(self._log)
             left.dock_left()
             left.set_width(_LEFT)
             motions = MotionLayer(context)

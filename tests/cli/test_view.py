@@ -9,11 +9,17 @@ import pytest
 
 pytest.importorskip("viser", reason="the extra 'web' is not installed")
 
+from gazelle.simulation import Simulation
+
 
 @pytest.mark.long
-def test_a_file_is_shown_until_ctrl_c(tmp_path):
+@pytest.mark.parametrize("source", ["turtlebot3_burger", "run.jsonl"])
+def test_a_file_is_shown_until_ctrl_c(tmp_path, source):
+    if source == "run.jsonl":
+        with Simulation("empty", threads=1) as simulation, simulation.record(tmp_path / source):
+            simulation.run(0.2)
     with subprocess.Popen(
-        [sys.executable, "-m", "gazelle", "view", "turtlebot3_burger"],
+        [sys.executable, "-m", "gazelle", "view", source],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,

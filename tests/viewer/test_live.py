@@ -445,6 +445,8 @@ def test_a_page_to_look_at_alone_changes_nothing(room):
         pictures(view)
         assert ask(view, f"{secret(view)}drive?linear=1&angular=0")[0].status == 404
         assert not any("Controls" in type(layer).__name__ for layer in view._layers[1:])
+        with pytest.raises(Error, match="has no log"):
+            view.show_recording(None)
 
 
 @pytest.mark.long

@@ -7,7 +7,7 @@ import pytest
 
 pytest.importorskip("viser", reason="the extra 'web' is not installed")
 
-from gazelle.simulation import Simulation
+from gazelle.simulation import Replay, Simulation
 from gazelle.viewer import LiveView
 from gazelle.viewer.page import time_log
 from tests.ros.graph import until
@@ -93,6 +93,23 @@ def test_other_models_and_a_reset_begin_a_new_log(falling, monkeypatch):
         falling.delete("lamp")
         view._picture()
         assert len(log._times) <= 1
+
+
+def test_a_recording_is_gone_through_by_the_slider(falling, tmp_path):
+    file, hashes = tmp_path / "run.jsonl", {}
+    with falling.record(file):
+        for _ in range(6):
+            falling.run(0.05)
+            hashes[falling.time] = falling.state_hash()
+    with Replay(file, threads=1) as replay, LiveView(replay.simulation) as view:
+        view.show_recording(replay)
+        log, again = layer(view, "TimeLog"), replay.simulation
+        assert again.paused
+        assert (again.time, again.state_hash()) == (falling.time, falling.state_hash())
+        for moment in (0.1, 0.3, 0.05):
+            seek(log, moment)
+            assert again.time == pytest.approx(moment)
+            assert again.state_hash() == hashes[again.time]
 
 
 @pytest.mark.long

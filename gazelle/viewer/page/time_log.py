@@ -7,9 +7,11 @@ import time
 from typing import Any
 
 from gazelle.errors import SimulationError
+from gazelle.simulation import Replay
 from gazelle.viewer.page.context import PageContext
 from gazelle.viewer.page.live_input import LiveInput
 
+_EVERY = 0.05  # of a recording [s]
 _PERIOD = 0.1  # wall time between two states [s]
 _SHARE = 0.05  # of the time that taking states takes at most
 _MOST = 600  # states; of more, every other one is left out
@@ -79,6 +81,22 @@ class TimeLog:
     def renew(self) -> None:
         """Clear the log: its states are of other models."""
         self._forget()
+
+    def fill(self, replay: Replay) -> None:
+        """Run a recording to its end, and keep its states; before it is shown.
+
+        Of a recording in which models come or go the last part is kept.
+
+        Raises:
+            SimulationError: The recording is damaged, or the run does not do the same again.
+        """
+        simulation = replay.simulation
+        steps = max(1, round(_EVERY / simulation.engine.time_step))
+        with simulation.lock:
+            self._keep()
+            while replay.step(steps):
+                self._keep()
+            simulation.pause()
 
     def _switch(self) -> None:
         if not self._on.value:
