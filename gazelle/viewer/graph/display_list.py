@@ -156,8 +156,9 @@ class DisplayList:
         self._count += 1
         root = f"/robots/{self._count}"
         try:
-            self.robots[name] = DescribedRobot(
+            self.robots[name] = robot = DescribedRobot(
                 self._context.scene, root, text, f"{prefix}/" if prefix else ""
             )
+            robot.show(self._context.tree, self._context.fixed)
         except Error as error:
             self._refused[name] = text, f"{name}: {error}"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import threading
+import time
 from collections.abc import Sequence
 from functools import partial
 from typing import Any
@@ -25,6 +26,7 @@ from gazelle_ros.tf import take_transforms
 _AUTOMATIC = "automatic"
 _LOOK = 1.0  # between two looks at what topics there are [s]
 _PERIOD = 0.05
+_SHARE = 0.2  # of a core that pictures take at most: dearer ones come less often
 _log = logging.getLogger("gazelle.viewer")
 
 
@@ -127,7 +129,7 @@ class GraphView(Closeable):
 
     def _follow(self) -> None:
         """Draw new messages while the page is open."""
-        server, looked = self._context.server, _LOOK
+        server, look_at, draw_at = self._context.server, 0.0, 0.0
         while not self._stop.is_set():
             if not server.watched:
                 self._panels.pause()
@@ -135,17 +137,19 @@ class GraphView(Closeable):
                 server.wait()
                 continue
             try:
-                if looked >= _LOOK:
-                    looked = 0.0
+                if time.monotonic() >= look_at:
+                    look_at = time.monotonic() + _LOOK
                     self._discover()
-                self._picture()
+                if time.monotonic() >= draw_at:
+                    spent = time.thread_time()
+                    self._picture()
+                    draw_at = time.monotonic() + (time.thread_time() - spent) / _SHARE
                 self._panels.refresh()
             except (ApiError, UnreachableError) as error:
                 self._set_status(f"the master does not answer: {error}")
                 self._stop.wait(_LOOK)
             except Exception:  # noqa: BLE001  one failure does not end the view
                 _log.exception("a picture of the graph failed")
-            looked += _PERIOD
             self._stop.wait(_PERIOD)
 
     def _set_status(self, text: str) -> None:
