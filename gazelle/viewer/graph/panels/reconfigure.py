@@ -144,13 +144,11 @@ class ReconfigurePanel(GraphPanel):
             client = self.context.node.client(f"{self._server}/set_parameters", kind)
             try:
                 value = self._kinds[name](self._controls[name].value)
-                answer = client.call(kind._request_class(config=encode_config({name: value})))
+                client.call(kind._request_class(config=encode_config({name: value})))
             except Error as error:
                 raise Error(f"{self._server} did not change {name}: {error}") from error
             finally:
                 client.close()
-            with self._lock:
-                self._values |= decode_config(answer.config)
 
         return send
 
