@@ -124,8 +124,7 @@ def test_a_light_is_put_above_the_cursor(shown):
 def test_the_world_is_saved_as_it_is(shown):
     simulation, _, page, folder = shown
     simulation.robots["box"].set_pose((0.1, 0.2, 0.5))
-    fields = page.get_by_role("textbox").all()
-    field = next(each for each in fields if each.input_value().endswith(".world"))
+    field = page.locator("xpath=//*[text()='World file']/following::input[1]")
     field.fill(str(folder / "saved.world"))
     field.press("Enter")
     until(lambda: str(folder) in field.input_value())

@@ -72,6 +72,7 @@ class PageContext(UserActions):
         part: Selected part of that model or world.
         heading: Position of the followed model [m], shape (3,).
         only_looking: Whether nothing can be changed on the page.
+        placing_until: Wall time until which clicks in the scene put something down [s].
         listeners: Called between two steps after another model or part was selected.
     """
 
@@ -84,6 +85,7 @@ class PageContext(UserActions):
     part: ScenePart = field(default_factory=ScenePart)
     only_looking: bool = False
     heading: Floats = field(default_factory=lambda: np.zeros(3))
+    placing_until: float = 0.0
     listeners: list[Callable[[], None]] = field(default_factory=list)
     _announced: tuple[str, int, ScenePart] = ("", 0, ScenePart())
 

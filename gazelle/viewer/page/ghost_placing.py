@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import threading
+import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
@@ -89,12 +90,15 @@ class GhostPlacing:
         batches.show(at[None], turned[None])
         frame.wxyz = (math.cos(yaw / 2.0), 0.0, 0.0, math.sin(yaw / 2.0))
         script = client.gui.add_html(_CURSOR.format(client=client.client_id))
+        context.placing_until = math.inf
         self._carried = _Carried(client, script, frame, yaw, put)
 
     def end(self) -> None:
         """Show no ghost any more."""
         carried, self._carried = self._carried, None
         if carried is not None:
+            # The click that puts it down arrives as a click on what is below, too.
+            self._context.placing_until = time.monotonic() + 1.0
             carried.script.remove()
             carried.frame.remove()  # and what hangs on it
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from typing import Any
 
@@ -89,6 +90,8 @@ class ModelTools:
         context = self._context
 
         def click(event: Any) -> None:
+            if time.monotonic() < context.placing_until:
+                return
             found = met(event.instance_index or 0)
             model = found.link.split("::")[0]
             again = (model, found.world) == (context.selected, context.world)
