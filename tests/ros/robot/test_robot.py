@@ -203,10 +203,8 @@ def test_the_node_with_sliders_takes_positions_and_names_the_page(
     running = Background(lambda _stop: main(["_rate:=50", "_zeros:={turn: 1.0}", "__name:=gui"]))
     until(lambda: got)
     assert got[0].position == pytest.approx((0.4, 1.0, -1.9))
-    assert (
-        "the panel 'Joint sliders' of `gazelle view`, which publishes on /gui/sliders"
-        in caplog.text
-    )
+    words = "the panel 'Joint sliders' of `gazelle view`, which publishes on /gui/sliders"
+    until(lambda: words in caplog.text)
     sender = watcher.advertise("/gui/sliders", state)
     until(lambda: sender.num_connections)
     sender.publish(state(name=["lift"], position=[0.5]))
