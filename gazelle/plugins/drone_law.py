@@ -96,7 +96,7 @@ class DroneLaw:
         The torque has shape (nworld, 3).
 
         Args:
-            now: Known map.
+            now: Motion of the drones.
             orders: The commands.
             gravity: In the world frame [m/s²], shape (nworld, 3).
         """
