@@ -19,9 +19,9 @@ class AckermannLaw(BaseLaw):
     """Rolls and steers; multipliers count for the odometry alone.
 
     Args:
-        wheel: That is driven.
-        front: That is steered.
-        turned: How far the wheel had turned [rad], shape (nworld,); used in place.
+        wheel: Driven wheel.
+        front: Steered joint.
+        turned: Last angle of the wheel [rad], shape (nworld,); used in place.
         sizes: Radius of the wheel for commands and for the odometry, distance of the axles [m], factor
             of the measured angle; shape (4,).
         base: Arguments of ``BaseLaw``.

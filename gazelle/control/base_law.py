@@ -24,10 +24,10 @@ class BaseMemory:
 
     Attributes:
         wanted: The last command: forward, sideways [m/s] and turning [rad/s], shape (nworld, 3).
-        stamps: When it came [ns], shape (nworld,).
-        last: What is driven, shape (nworld, 3).
-        earlier: What was driven before that, likewise.
-        lost: Where the wheels could not be measured, shape (nworld,).
+        stamps: Time of its arrival [ns], shape (nworld,).
+        last: Current velocity command, shape (nworld, 3).
+        earlier: The one before, likewise.
+        lost: Mask of worlds in which the wheels could not be measured, shape (nworld,).
     """
 
     wanted: Floats
@@ -113,7 +113,7 @@ class BaseLaw(ControlLaw):
         """Command the wheels for what is driven now.
 
         Args:
-            world: Which.
+            world: Index of the world.
             old: Whether the last command is too old.
         """
 

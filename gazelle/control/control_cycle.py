@@ -23,8 +23,8 @@ class ControlCycle(JointSystem):
         joints: Number of joints.
 
     Attributes:
-        updated_ns: When controllers were updated last; -1 for never, shape (nworld,).
-        written_ns: When commands were written last, likewise.
+        updated_ns: Time of the last update of controllers; -1 for never, shape (nworld,).
+        written_ns: Time of the last write of commands, likewise.
     """
 
     def __init__(self, nworld: int, joints: int) -> None:

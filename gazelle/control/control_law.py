@@ -25,7 +25,7 @@ class ControlLaw:
         """Update in a world, without the interpreter's lock.
 
         Args:
-            world: Which.
+            world: Index of the world.
             now: Simulated time [ns].
             period: Since the last update [s].
         """

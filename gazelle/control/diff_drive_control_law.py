@@ -21,7 +21,7 @@ class DiffDriveControlLaw(BaseLaw):
 
     Args:
         wheels: Those of the left side, then those of the right one.
-        turned: How far each side had turned [rad], shape (nworld, 2); used in place.
+        turned: Last angle of each side [rad], shape (nworld, 2); used in place.
         sizes: Left and right radius and separation [m], shape (3,); used in place.
         base: Arguments of ``BaseLaw``.
         open_loop: Likewise.

@@ -21,7 +21,7 @@ class GripperLaw(ControlLaw):
         joint: The one of the gripper.
         wanted: Its positions [m or rad], shape (nworld,); used in place, as the others are.
         most: Largest efforts [N or N m], likewise.
-        output: What acts, as far as it is known [N or N m], likewise.
+        output: Acting effort, as far as it is known [N or N m], likewise.
     """
 
     def __init__(self, joint: JointHandles, wanted: Floats, most: Floats, output: Floats) -> None:

@@ -63,8 +63,8 @@ class JointLaw:
             ``effort``, shape (nworld, joints); and ``effort_command``, ``position_command`` and
             ``velocity_command``, shape (nworld, n).
         memory: Of the joints.
-        turning: Which joints turn, shape (joints,).
-        endless: Which of them do so without limits.
+        turning: Mask of joints that turn, shape (joints,).
+        endless: Mask of those without limits.
     """
 
     def __init__(
@@ -96,7 +96,7 @@ class JointLaw:
 
         Args:
             kinds: Of each joint, ``BY_EFFORT`` and so on, shape (joints,).
-            columns: Where their commands are.
+            columns: Columns of their commands.
             limits: Of the joints.
             pid: With a loop for each joint.
         """
@@ -110,7 +110,7 @@ class JointLaw:
         """Measure; joints that turn are followed round and round, and never jump.
 
         Args:
-            world: Which.
+            world: Index of the world.
             measured: Positions, in order.
             rates: Velocities.
         """

@@ -29,7 +29,7 @@ class JointPidLaw(ControlLaw):
         pid: With as many loops.
         targets: Positions [m or rad] or velocities [m/s or rad/s], shape (nworld, joints); used in
             place, as ``error`` is.
-        error: What they lack, likewise.
+        error: Desired less actual value, likewise.
     """
 
     def __init__(self, joints: JointHandles, pid: PidLaw, targets: Floats, error: Floats) -> None:
@@ -51,7 +51,7 @@ class JointPidLaw(ControlLaw):
 
         Args:
             limits: Lower and upper ones [m or rad], shape (joints,) each.
-            turning: Which joints turn, shape (joints,).
+            turning: Mask of joints that turn, shape (joints,).
         """
         self.by_velocity, self.measured_at = False, start(self.position)
         self.lower, self.upper, self.turning = np.array([*limits, turning], np.float64)

@@ -21,7 +21,7 @@ class MecanumLaw(BaseLaw):
 
     Args:
         wheels: Four.
-        turned: How far they had turned [rad], shape (nworld, 4); used in place.
+        turned: Last angles of the wheels [rad], shape (nworld, 4); used in place.
         radius: Of a wheel [m].
         mixing: From a velocity of the base to those of the wheel contacts, shape (4, 3).
         inverse: Back, shape (3, 4).

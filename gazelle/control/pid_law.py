@@ -53,12 +53,12 @@ class PidLaw:
         """Return the output for an error now; 0 in no time, or for one that is not finite.
 
         Args:
-            world: Which.
-            loop: Which.
-            error: What is wanted less what is.
+            world: Index of the world.
+            loop: Index of the loop.
+            error: Desired less actual value.
             dt: Since the last time [s].
             rated: Whether the rate of the error is given, not that since the last time.
-            given: That.
+            given: Derivative of the error.
         """
         if dt <= 0.0 or not isfinite(error):
             return 0.0
@@ -88,13 +88,13 @@ class PidLaw:
         """Compute ``push`` of all loops of a world.
 
         Args:
-            world: Which.
+            world: Index of the world.
             errors: Of each loop.
             dt: Since the last time [s].
             near: Whether all errors are known to be finite.
             rated: Whether rates of errors are given.
             rates: Those.
-            out: What comes out.
+            out: Output.
         """
         count = self.count
         if dt <= 0.0 or not (near or are_finite(count, errors)):

@@ -35,9 +35,9 @@ class TrajectoryMemory:
         reached: Joints that are where it wants them, shape (nworld, joints).
         path: Tolerances on the way: position, velocity, acceleration; shape (nworld, joints, 3).
         end: At the end, likewise.
-        patience: How much later than its end a goal may be there [s], shape (nworld,).
-        event: How a goal ended that was not reported yet, shape (nworld,).
-        event_goal: Which, likewise.
+        patience: Allowed delay of a goal's end [s], shape (nworld,).
+        event: Outcome of a goal that was not reported yet, shape (nworld,).
+        event_goal: Its goal, likewise.
         event_joint: Of the joint that strayed or is late, likewise.
         event_error: Its error [m or rad], likewise.
     """

@@ -62,7 +62,7 @@ class OctreeWalk:
     Args:
         data: Shape (n,).
         record: See ``occupied_leaves``.
-        leaves: Where they are written while there is room, shape (leaves, 4).
+        leaves: Array for them; the rest is left out, shape (leaves, 4).
 
     Attributes:
         count: Occupied leaves so far.

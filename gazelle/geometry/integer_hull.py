@@ -28,7 +28,7 @@ class HullBuilder:
 
     Attributes:
         scale: Steps of the grid a unit of length.
-        faces: How many places for faces were used; those whose first corner is -1 are free.
+        faces: Number of used places for faces; those whose first corner is -1 are free.
     """
 
     def __init__(self, most: int) -> None:

@@ -31,7 +31,7 @@ class ChainSolver:
 
     Args:
         tree: The robot.
-        joint: Which the frame moves with.
+        joint: Joint that moves the frame.
         offset: The frame in the joint's, shape (12,).
         columns: Of the variables that may be changed, shape (m,).
         lower: Their limits [m or rad], shape (m,).

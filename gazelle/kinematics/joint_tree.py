@@ -50,7 +50,7 @@ class JointTree:
         slides: Whether a joint slides along its axis rather than turning, shape (joints,).
         columns: Of which variable a joint's position is made, shape (joints,).
         multipliers: By which the variable is multiplied, shape (joints,).
-        offsets: What is added then [m or rad], shape (joints,).
+        offsets: Offsets that are added then [m or rad], shape (joints,).
     """
 
     _parents: cython.int[::1]
@@ -162,7 +162,7 @@ class JointTree:
 
         Args:
             variables: Shape (n, variables).
-            joint: That the frame moves with, -1 for the root.
+            joint: Joint that moves the frame, -1 for the root.
             offset: The frame in its joint's, shape (12,).
 
         Returns:

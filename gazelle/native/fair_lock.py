@@ -42,7 +42,7 @@ class Turn:
 
     Args:
         thread: Identifier of the thread; 0 for work.
-        work: What is to be done; None for a thread.
+        work: Work to do; None for a thread.
     """
 
     def __init__(self, thread: int, work: Callable[[], Any] | None = None) -> None:
@@ -117,7 +117,7 @@ class FairLock:
 
         Raises:
             KeyboardInterrupt: One came meanwhile; the calling thread holds the lock.
-            Exception: What ``watch`` raised; the calling thread does not hold the lock.
+            Exception: ``watch`` raised it; the calling thread does not hold the lock.
         """
         interruption: Any = None
         if self.depth != 1 or not self.waiting:

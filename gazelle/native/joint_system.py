@@ -37,10 +37,10 @@ class JointSystem(System):
     Attributes:
         position_in: Of joints [m or rad], shape (nworld, joints); not filled by ``exchange``.
         velocity_in: [m/s or rad/s], likewise.
-        effort_out: What acts on joints [N or N m], likewise.
+        effort_out: Efforts on joints [N or N m], likewise.
         pushed_out: 1 where that changed, else 0, likewise.
-        speed_out: What motors hold [m/s or rad/s], likewise.
-        driven_out: Where that changed, likewise.
+        speed_out: Speeds that motors hold [m/s or rad/s], likewise.
+        driven_out: Mask of changes of that, likewise.
     """
 
     def __init__(self, nworld: int, joints: int) -> None:
@@ -107,7 +107,7 @@ class JointSystem(System):
         """Set the commands of a world; subclasses implement it.
 
         Args:
-            world: Which.
+            world: Index of the world.
             measured: Positions of the joints, in order.
             rates: Their velocities.
             time: Simulated time [ns].
@@ -119,7 +119,7 @@ class JointSystem(System):
         """Read the joints of a world, advance, and apply the changed commands.
 
         Args:
-            world: Which.
+            world: Index of the world.
             qpos: All positions of the world.
             qvel: All velocities.
             applied: All efforts.

@@ -72,11 +72,11 @@ class SystemLoop:
     Args:
         systems: In the order in which they are updated. One that has an attribute ``steady`` which
             is true does nothing new in a step until Python changes what it goes by.
-        nworld: How many worlds.
+        nworld: Number of worlds.
         step: Simulated time of a step [ns].
         pool: Threads to share the work among; None: the calling one works alone.
-        time: When it begins [ns].
-        acts: When an engine whose steps are made by something else updates each system, of
+        time: Start time [ns].
+        acts: Phase in which an engine with steps of its own updates each system, of
             ``gazelle.native.acting``; all between two steps if None.
 
     Attributes:

@@ -90,7 +90,7 @@ def met_from_inside(
         distance: Less than zero for nothing [m], shape (n, rays); changed.
         normal: Of the surfaces that were met, shape (n, rays, 3).
         along: Directions of the rays, likewise.
-        geom: What was met, shape (n, rays); negative for nothing.
+        geom: Index of the geom that was hit, shape (n, rays); negative for nothing.
         sheet: Things that have no inside, shape (geoms,).
     """
     inside = np.empty(distance.shape, np.uint8)

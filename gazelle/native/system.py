@@ -26,7 +26,7 @@ class System:
             nothing of each other that this update changes.
 
     Attributes:
-        due: When it is updated next [ns]; 0 for at once.
+        due: Time of the next update [ns]; 0 for at once.
         late: Whether it is updated after all that moves, for the end of the step.
         least: Fewer rows are not worth a thread.
         uses: Arrays of an engine that it reads or writes, such as ``motor_targets``. An engine that can

@@ -72,8 +72,8 @@ def fill_normal(key: int, start: int, size: int, drawn: Floats) -> None:
 
     Args:
         key: Of the world.
-        start: How many numbers were drawn before.
-        size: How many are wanted.
+        start: Number of earlier draws.
+        size: Number of draws.
         drawn: Comes out, in the first ``size``; room for one more if that is odd.
     """
     pairs = (size + 1) // 2
@@ -118,7 +118,7 @@ def draw_uniform(keys: UInts64, counters: UInts64, drawn: Floats) -> None:
 
     Args:
         keys: Of the worlds, shape (n,).
-        counters: How many numbers each has drawn, shape (n,).
+        counters: Number of each one's draws, shape (n,).
         drawn: Comes out, shape (n, size).
     """
     with cython.nogil:
@@ -134,8 +134,8 @@ def draw_normal(keys: UInts64, counters: UInts64, size: int, drawn: Floats) -> N
 
     Args:
         keys: Of the worlds, shape (n,).
-        counters: How many numbers each has drawn, shape (n,).
-        size: How many numbers each world draws.
+        counters: Number of each one's draws, shape (n,).
+        size: Number of draws of each world.
         drawn: Comes out, shape (n, size), or (n, size + 1) if that is odd.
     """
     with cython.nogil:

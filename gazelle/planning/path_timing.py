@@ -55,7 +55,7 @@ class SpeedProfile:
         """Return squares of the speed at the places, shape (m,).
 
         Args:
-            ceilings: That they do not exceed, shape (m,).
+            ceilings: Upper bounds, shape (m,).
         """
         bounds: cython.double[::1] = np.ascontiguousarray(ceilings, np.float64)
         i: cython.int

@@ -28,7 +28,7 @@ class WheelTables:
         linear: Commanded velocities [m/s], shape (nworld, n, 3).
         angular: Commanded turning rates [rad/s], likewise.
         speeds: Of the left and right wheels on the ground [m/s], shape (nworld, n, 2).
-        sent: What the motors of each side were given last [rad/s], shape (nworld, n, 2); NaN where
+        sent: Last command to the motors of each side [rad/s], shape (nworld, n, 2); NaN where
             that is not what they have.
         last_ns: Time of the last update [ns], shape (nworld, n).
     """

@@ -30,7 +30,7 @@ class Lighting:
         ambient: Light from all around, red, green and blue, shape (3,).
         top: Colour of the sky overhead, shape (3,).
         horizon: Colour of the sky at the horizon, and of all that is not sky, shape (3,).
-        tones: What a picture holds for brightnesses from 0 to 1, evenly spaced, shape (n,).
+        tones: Values of pixels for brightnesses from 0 to 1, evenly spaced, shape (n,).
     """
 
     def __init__(

@@ -40,7 +40,7 @@ class DrawnShapes:
         parts: As ``columns.MESH_OF_PART`` and what follows say, shape (p, PART).
         local: Of each part in its link, rotation by rows and place [m], shape (p, 12).
         color: Red, green and blue of each part, 0 to 1, shape (p, 3).
-        glow: What it shines itself, likewise.
+        glow: Emitted light, likewise.
         alpha: Of each part, 1 for what hides all behind it, shape (p,).
         uv: Of the vertices, to the right and up in a picture, shape (n, 2).
         textures: As ``columns.FIRST_TEXEL`` and what follows say, shape (t, TEXTURE).
@@ -74,7 +74,7 @@ class Rasterizer:
     """Draws one picture after another; what one thread needs for it.
 
     Args:
-        shapes: What there is to be seen.
+        shapes: Shapes to draw.
         links: Rotation by rows and place [m] of all links, shape (nworld, nlink, 12).
         cameras: As ``columns.CAMERA`` says, shape (n, CAMERA).
         lens: Focal lengths along rows and columns, column and row of the axis [pixel], nearest

@@ -37,14 +37,14 @@ class Shader:
     on what is not flat and of one colour.
 
     Args:
-        seen: What finds the triangles.
-        lighting: What lights them.
+        seen: Rasteriser that finds the triangles.
+        lighting: Lights of the scene.
         color: Red, green and blue come out, and 255 if there is a fourth, shape (n, height, width,
             3 or 4); with n = 0 none.
         depth: Along the optical axis [m], infinite where nothing is, shape (n, height, width);
             with n = 0 none.
         labels: Numbers of what is seen, -1 where nothing is, likewise.
-        maps: Where a lamp sees the world from, for shadows; None for no shadows.
+        maps: Shadow maps of a lamp; None for no shadows.
     """
 
     def __init__(

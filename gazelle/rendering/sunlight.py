@@ -14,8 +14,8 @@ class Sunlight:
     """The lamp's picture for one camera at a time.
 
     Args:
-        seen: What the cameras see.
-        maps: Where the lamp sees the world from; None for no shadows.
+        seen: Triangles that the cameras see.
+        maps: Shadow maps of the lamp; None for no shadows.
     """
 
     def __init__(self, seen: Rasterizer, maps: ShadowMaps | None) -> None:

@@ -24,10 +24,10 @@ class RangeLaw:
 
     Args:
         low: Least range that it reports [m].
-        high: What is not nearer is reported as infinite [m].
-        quantum: What ranges are rounded to [m]; 0 for not.
+        high: Largest finite range; others are infinite [m].
+        quantum: Resolution of ranges [m]; 0 for none.
         mean: Of the noise [m].
-        precision: What noisy ranges are rounded to [m]; 0 for not.
+        precision: Resolution of noisy ranges [m]; 0 for none.
     """
 
     def __init__(
@@ -43,7 +43,7 @@ class LidarNoise:
     Args:
         deviation: Standard deviation of the white noise [m], shape (n,).
         keys: Of its random numbers, shape (n,).
-        counters: How many of them were drawn, shape (n,).
+        counters: Number of those drawn, shape (n,).
         bias: Of each sample [m], shape (n, samples), or (0, samples) for none.
     """
 
@@ -124,7 +124,7 @@ class LidarSystem(System):
     Args:
         rows: Of a world.
         cast: Writes true distances, a row each.
-        ranges: What that writes [m], shape (nworld * rows, samples).
+        ranges: Ranges that it writes [m], shape (nworld * rows, samples).
         offset: Added to them [m].
         law: Of all of them.
         noise: A row each.

@@ -22,7 +22,7 @@ class Reckoning(System):
     Args:
         velocity: In the bodies' own frames: x, y [m/s], yaw [rad/s], shape (nworld * stride, 3).
         share: By which they are wrong, shape (nworld * count, 3).
-        pose: Where they believe they are: x, y [m], heading [rad], shape (nworld * count, 3).
+        pose: Their odometry: x, y [m], heading [rad], shape (nworld * count, 3).
         count: Of a world.
         stride: Rows of ``velocity`` of a world, of which the first ``count`` are theirs.
         dt: Of a step [s].

@@ -21,7 +21,7 @@ class Wandering(System):
 
     Args:
         commands: Of all bodies of all worlds, written, shape (nworld * nbody, 3).
-        ranges: What sensors measured [m], a row a sensor.
+        ranges: Measured ranges [m], a row a sensor.
         sensors: The sensor of each robot, shape (nworld * robots,).
         owners: Its body, counted through all worlds, likewise.
         nworld: Number of worlds.

@@ -57,9 +57,9 @@ class Beams:
     Args:
         angles: Of the beams from the sensor's x axis [rad], shape (count,).
         step: Between two of them [rad].
-        reach: How far they go [m].
-        begin: What is nearer is not met [m].
-        slack: How wrong angles may be that choose beams [rad].
+        reach: Their range [m].
+        begin: Smallest distance of hits [m].
+        slack: Largest error of angles that choose beams [rad].
 
     Attributes:
         dx: Their directions.

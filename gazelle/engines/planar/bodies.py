@@ -23,16 +23,16 @@ class Bodies:
         widest: Radius of the largest body about its origin [m].
         euler: Whether a step goes straight and then turns, as in Stage, not along an arc.
         sweep: Whether what is in the way is looked for on the way too.
-        rows: Where bodies are, shape (nworld * nbody, BODY).
-        goal: Where they would be after this step; as ``rows``.
+        rows: Poses of bodies, shape (nworld * nbody, BODY).
+        goal: Poses after this step without collisions; as ``rows``.
         command: Wanted velocities, shape (nworld * nbody, 3).
         velocity: Velocities of the drives; as ``command``.
-        kinds: What bodies are, shape (nbody, KIND_OF_BODY).
-        drives: What moves them, shape (nbody, DRIVE), or (1, DRIVE) if that is the same for all.
+        kinds: Kinds of the bodies, shape (nbody, KIND_OF_BODY).
+        drives: Their drives, shape (nbody, DRIVE), or (1, DRIVE) if that is the same for all.
         pieces: Convex pieces, shape (n, PIECE).
         corners: Of the pieces, shape (n, 2).
         looks: Primitives that rays meet, shape (n, PRIMITIVE).
-        statics: What stands still, shape (n, PRIMITIVE).
+        statics: Static parts, shape (n, PRIMITIVE).
         lanes: The same, one column each, where there are few; else none.
         grid: See ``grid_cells``.
         start: First item of each cell.
@@ -43,10 +43,10 @@ class Bodies:
         head: First body in each cell of each world, shape (nworld, cells).
         follow: The next body in the same cell, shape (nworld * nbody,).
         cell: The cell of each body, shape (nworld * nbody,).
-        state: What becomes of a body in a step, shape (nworld * nbody,).
+        state: Outcome of a body's step, shape (nworld * nbody,).
         stalled: Whether the last move was not made, shape (nworld * nbody,).
-        way: How far each body would go in this step [m], where threads share a world.
-        memory: What kernels remember of each body, shape (nworld * nbody, MEMORY).
+        way: Length of each body's way in this step [m], where threads share a world.
+        memory: Memory of the kernels for each body, shape (nworld * nbody, MEMORY).
     """
 
     def __init__(self, **tables: Any) -> None:

@@ -37,9 +37,9 @@ class FanScanner(System):
 
     Args:
         beams: Of the fan; written on.
-        at: Where scans begin; written on.
+        at: Origins of scans; overwritten.
         lanes: Beams on their way; None where all is drawn.
-        front: What faces sensors; None where scenes are large or names wanted.
+        front: Faces towards the sensors; None where scenes are large or names wanted.
         mounts: Places on bodies, as ``columns.S_X`` and what follows say, shape (n, SENSOR).
         middles: Directions of the middles of bundles of beams, shape (2, n).
 
@@ -47,7 +47,7 @@ class FanScanner(System):
         next: The same scanner for one thread more; it shares all results.
         owners: Body of each sensor, counted through all worlds.
         ranges: Comes out [m], a row a sensor.
-        names: What each beam met, as ``columns.NAMES`` says, a row a sensor; no rows if that is
+        names: Hit of each beam, as ``columns.NAMES`` says, a row a sensor; no rows if that is
             not wanted.
         missing: Range of beams that meet nothing [m].
         signed: Whether what is met from inside has the range minus infinity.

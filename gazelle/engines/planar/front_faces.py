@@ -51,7 +51,7 @@ class FrontFaces:
     Args:
         sides: Of statics, then of each body in its own frame: both ends [m], whether from both
             sides, and their lowest and highest height [m], shape (n, 7), n at most ``ROOM``.
-        statics: How many of them are of statics.
+        statics: Number of those of statics.
         discs: Static discs: middle, radius, lowest and highest height [m], shape (m, 5).
         rounds: As ``discs``, of bodies.
         spans: Of each body the first side and the one after the last, and so for discs, shape
@@ -83,10 +83,10 @@ class FrontFaces:
         one side than from the other, are counted in ``inside``, as are sides that it is on.
 
         Args:
-            n: How many are listed.
+            n: Number of listed faces.
             first: Of the sides.
             last: The one after the last.
-            reach: How far the sensor sees [m].
+            reach: Range of the sensor [m].
             height: Of the sensor above their frame [m].
             x: Their frame in that of the sensor: origin [m], cosine and sine of its heading.
             y: See x.

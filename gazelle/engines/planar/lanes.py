@@ -84,9 +84,9 @@ class Lanes:
     """Some beams on their way.
 
     Args:
-        space: Where there is nothing static.
+        space: Space without static parts.
         bodies: All that there is.
-        begin: What is nearer is not met [m].
+        begin: Smallest distance of hits [m].
     """
 
     def __init__(self, space: ClearSpace, bodies: Bodies, begin: float) -> None:
@@ -179,8 +179,8 @@ class Lanes:
         """Advance lanes as far as all beams beside them can follow.
 
         Args:
-            count: How many lanes, each the middle of a bundle.
-            spread: How far beams are aside, as a share of the distance.
+            count: Number of lanes, each the middle of a bundle.
+            spread: Lateral offset of beams, as a share of the distance.
         """
         least = min(self.fine[SIDE_U], self.fine[SIDE_V])
         moving = 1
@@ -318,8 +318,8 @@ class Lanes:
             dy: See dx.
             begins: Comes out.
             rate: Beams a radian.
-            at: Where they are.
-            reach: How far beams go [m].
+            at: Place of the sensor.
+            reach: Range of the beams [m].
         """
         half = 0.5 * SIDE_BY_SIDE / rate
         spread = sine(half) / cosine(half)

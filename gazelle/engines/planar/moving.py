@@ -67,7 +67,7 @@ class Moving(System):
     """A step of all bodies, world by world.
 
     Args:
-        bodies: What moves.
+        bodies: Moving bodies.
     """
 
     def __init__(self, bodies: Bodies) -> None:
@@ -85,7 +85,7 @@ class Planning(System):
     """The first part of a step of large worlds, which threads share: where bodies would go.
 
     Args:
-        bodies: What moves.
+        bodies: Moving bodies.
     """
 
     def __init__(self, bodies: Bodies) -> None:
@@ -103,7 +103,7 @@ class Screening(System):
     """The second part: which bodies depend on others.
 
     Args:
-        bodies: What moves.
+        bodies: Moving bodies.
     """
 
     def __init__(self, bodies: Bodies) -> None:
@@ -124,7 +124,7 @@ class Settling(System):
     """The last part, one after another: decide the rest, and move.
 
     Args:
-        bodies: What moves.
+        bodies: Moving bodies.
     """
 
     def __init__(self, bodies: Bodies) -> None:

@@ -52,7 +52,7 @@ def meet_some(lanes: Lanes, first: int, last: int, found: Candidates, n: int, ba
         first: Of the lanes.
         last: Before it.
         found: Bodies; ``first`` and ``span`` are written on.
-        n: How many.
+        n: Number of bodies.
         base: The first body of the world.
     """
     for i in range(first, last):

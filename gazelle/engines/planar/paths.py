@@ -24,7 +24,7 @@ class PathFollower(PathSystem):
     Args:
         path: Of the model, which it keeps upright.
         bodies: Of all models.
-        body: Which of them.
+        body: Index of the body.
         heading: At the beginning [rad].
     """
 

@@ -18,7 +18,7 @@ class RoamingLaw(System):
 
     Args:
         bodies: Of all worlds.
-        ranges: What sensors measured [m], a row a sensor.
+        ranges: Measured ranges [m], a row a sensor.
         sensor: The sensor of each body; -1 for none.
         mood: Steps for which each still backs off, and for which it keeps its turn, shape (n, 2).
         seed: Of the turns.

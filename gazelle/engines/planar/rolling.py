@@ -23,7 +23,7 @@ class Joints:
         base: Body of each base that wheels drive, shape (bases,).
         first: First of its wheels, shape (bases + 1,).
         column: Axis of each wheel, shape (wheels,).
-        matrix: What its speed gives the base: along x, y and about z, shape (wheels, 3).
+        matrix: Velocity of the base for a unit speed of the wheel: along x, y and about z, shape (wheels, 3).
     """
 
     def __init__(self, **tables: Any) -> None:

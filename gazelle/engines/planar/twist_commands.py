@@ -40,10 +40,10 @@ class TwistCommands(System):
 
         Args:
             bodies: Of all models.
-            body: Which of them, shape (n,); -1 for one that does not move by itself.
+            body: Indices of the bodies, shape (n,); -1 for one that does not move by itself.
             rates: Of all joints, shape (nworld, axes); those of what moves are at rest.
             first: Column of its first joint, shape (n,).
-            width: How many it has, shape (n,).
+            width: Number of them, shape (n,).
         """
         self.bodies, self.rates = bodies, rates
         self.body, self.first_joint, self.width = body, first, width

@@ -31,7 +31,7 @@ class Viewpoint:
     """Pose of a sensor, and the memory that a thread uses while it scans.
 
     Args:
-        bodies: What there is to see.
+        bodies: Bodies that can be seen.
         beams: Of the fan; written on.
         outline: Corners of a convex polygon around all that can be seen, in the sensor's frame
             [m], shape (n, 2).

@@ -17,8 +17,8 @@ def clear_voxels(
         marked: A bit for each voxel with an obstacle, the lowest first, shape (rows, columns).
         unknown: A bit for each that nothing is known of, likewise.
         cells: Costs of the columns, likewise: 0 or 255; obstacles are left.
-        start: Where lines begin: column, row and layer, with parts of them, shape (3,).
-        ends: Where they end, shape (n, 3).
+        start: Start of the lines: column, row and layer, with parts of them, shape (3,).
+        ends: Ends of the lines, shape (n, 3).
         limits: Number of layers; how many marked ones make an obstacle, less one; and how many
             unknown ones make a column unknown, less one; shape (3,).
     """

@@ -22,10 +22,10 @@ class LikelihoodField:
     """Likelihood of beams' ends, by the distance to the nearest obstacle on the map.
 
     Args:
-        terms: What a beam's end in each cell adds, shape (rows, columns).
+        terms: Term of a beam's end in each cell, shape (rows, columns).
         origin: Of the map's lower left corner (x, y) [m].
         resolution: Side of a cell [m].
-        outside: What an end off the map adds.
+        outside: Term of an end off the map.
     """
 
     _rows: cython.int
@@ -54,7 +54,7 @@ class LikelihoodField:
         Args:
             poses: x, y [m] and heading [rad] of the robot, shape (n, 3).
             points: Ends of beams in the robot's frame [m], shape (m, 2).
-            first: What each sum begins with.
+            first: Initial value of each sum.
         """
         result = np.empty(len(poses))
         self._score(poses, points, first, result)

@@ -63,12 +63,12 @@ class ScanMatcher:
         """Move a pose to where a scan fits a map best.
 
         Args:
-            particle: Whose map.
+            particle: Particle with the map.
             pose: x, y [m] and heading [rad] of the laser, changed in place, shape (3,).
             beams: x and y of ends, in the laser's frame [m], shape (n, 2).
             step: First step of the climb [m].
             turn: First turn of the climb [rad].
-            rounds: How often steps are halved.
+            rounds: Number of halvings of the step.
 
         Returns:
             How many beams fit after the climb, each up to 1.

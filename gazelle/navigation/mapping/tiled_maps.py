@@ -90,7 +90,7 @@ class TiledMaps:
         """Draw a scan onto a particle's map.
 
         Args:
-            particle: Which.
+            particle: Index of the particle.
             pose: x, y [m] and heading [rad] of the laser, shape (3,).
             beams: x and y of ends, in the laser's frame [m], shape (n, 2).
             most: Farther ends are cut off there, and only what is before them is drawn [m].

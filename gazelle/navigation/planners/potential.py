@@ -216,7 +216,7 @@ class PotentialField:
 
         Args:
             start: Column and row.
-            source: Where the potential is 0.
+            source: Cell with the potential 0.
             grid: 1 to go from cell to cell; else in steps of half a cell along the gradient.
 
         Returns:

@@ -34,7 +34,7 @@ class TrajectoryRollout:
         grids: Steps to the path, to the goal, to the goal's front, and to the path once more, shape
             (4, rows, columns).
         weights: Of those four, of obstacles, and of turning, shape (6,).
-        ahead: How far before the robot the last two are looked up [m].
+        ahead: Distance before the robot at which the last two are looked up [m].
     """
 
     _costs: cython.uchar[:, ::1]
@@ -83,7 +83,7 @@ class TrajectoryRollout:
             velocity: Now [m/s, rad/s], shape (3,).
             commands: x, y [m/s] and turning [rad/s], shape (n, 3).
             steps: Of each, shape (n,); 0 for commands that are no motion.
-            duration: How far ahead [s].
+            duration: Length of the rollout [s].
         """
         result = np.empty(len(commands))
         self._score(pose, velocity, commands, steps, duration, result)
@@ -284,7 +284,7 @@ class TrajectoryRollout:
 
         Args:
             pose: x, y [m] and heading [rad].
-            angle: How far, counter-clockwise [rad].
+            angle: Angle of the turn, counter-clockwise [rad].
             step: Between headings that are looked at [rad].
         """
         x, y, heading = pose
@@ -321,7 +321,7 @@ def steps_of(
 
     Args:
         commands: Shape (n, 3).
-        duration: How far ahead [s].
+        duration: Length of the rollout [s].
         granularity: Longest step [m].
         angular_granularity: Greatest turn of a step [rad].
     """

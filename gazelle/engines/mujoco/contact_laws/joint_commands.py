@@ -39,7 +39,7 @@ def take_commands(
     Args:
         data: Address of the ``mjData``.
         hooks: Address of ``Hooks``.
-        world: Which.
+        world: Index of the world.
     """
     hook = longs(hooks)
     if hook[0] == 0:
@@ -78,7 +78,7 @@ def update_systems(
     Args:
         data: Address of the ``mjData``.
         hook: Numbers of ``Hooks``.
-        world: Which.
+        world: Index of the world.
         time: At the beginning of the step [ns].
     """
     table = longs(cython.cast(cython.size_t, hook[1]))
@@ -108,7 +108,7 @@ def is_due(
     """Return whether a system is due in a step, of several that are made at once.
 
     Args:
-        due: When it is for the first time in these steps, or after [ns].
+        due: Time of the first update in these steps, or after [ns].
         rate: Of its updates [Hz]; 0 for every step.
         time: At which the step begins [ns].
         step: Duration of a step [ns].

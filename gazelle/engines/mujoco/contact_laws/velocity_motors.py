@@ -27,7 +27,7 @@ def drive_motors(model: cython.size_t, data: cython.size_t, count: cython.int) -
     Args:
         model: Address of the ``mjModel``.
         data: Address of the ``mjData``.
-        count: How many motors there are; the model's tendons are theirs.
+        count: Number of motors; the model's tendons are theirs.
     """
     step = floats(model + AT.model_timestep)[0]
     wanted = floats(word(data + AT.userdata))
