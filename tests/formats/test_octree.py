@@ -158,7 +158,6 @@ def too_deep():
     ("octree", "words"),
     [
         (Octree(0.0, b"\x02\0"), "resolution"),
-        (Octree(float("nan"), b"\x02\0"), "resolution"),
         (Octree(0.1, b"\x02\0", kind="OcTre"), "did you mean 'OcTree'"),
         (Octree(0.1, b""), "at byte 0 is cut short"),
         (Octree(0.1, b"\x03\0\x02"), "at byte 2 is cut short"),
@@ -172,6 +171,11 @@ def too_deep():
 def test_damage_is_told(octree, words):
     with pytest.raises(FormatError, match=words):
         octree.cuboids()
+
+
+def test_a_resolution_that_is_no_number_is_refused():
+    with pytest.raises(FormatError, match="'resolution' must be a finite number"):
+        Octree(float("nan"), b"\x02\0")
 
 
 def test_too_many_leaves_are_told():

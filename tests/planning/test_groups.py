@@ -97,7 +97,7 @@ def test_named_states():
     [
         ({"elbow": 1.0}, "has no joint 'elbow'"),
         ([1.0], "has 3 joints"),
-        ([1.0, 2.0, np.nan], "'given' must be numbers"),
+        ([1.0, 2.0, np.nan], "'targets' must be numbers"),
     ],
 )
 def test_positions_that_cannot_be(given, words):
