@@ -10,7 +10,8 @@ export PIP_CONSTRAINT := $(CURDIR)/constraints.txt
 # One stamp for each set of extras: another set is another installation.
 STAMP := $(VENV)/.installed
 # Tests run in so many processes, a file in one.
-WORKERS ?= 2
+# Many tests wait: three processes keep two processors busy.
+WORKERS ?= 3
 # Which tests: files, folders, or @FILE with a line for each. Without them all.
 TESTS ?=
 PYTEST := $(VENV)/bin/python tools/run_tests.py -q -n $(WORKERS) --dist loadfile
