@@ -24,7 +24,7 @@ KERNELS := $(shell grep -rl --include='*.py' '^import cython$$' gazelle) \
 KERNEL_TESTS := tests/native/test_loop.py tests/geometry/test_air_probes.py tests/formats/test_octree.py tests/engines/mujoco/test_contact_laws.py tests/engines/mujoco/test_plane_cylinder.py \
 	tests/engines/mujoco/test_rolling_contacts.py tests/engines/planar/test_scans.py tests/engines/planar/test_small_scenes.py tests/engines/planar/test_fleet.py tests/engines/planar/test_sweeping.py tests/sensors/test_lidar_ranges.py tests/simulation/test_many_robots.py tests/rendering/test_renderer.py \
 	tests/kinematics/test_inverse.py tests/kinematics/test_kinematics.py tests/planning/test_timing.py \
-	tests/navigation/costmap tests/navigation/planners tests/navigation/localization/test_pose_bins.py tests/navigation/localization/test_scan_likelihood.py tests/navigation/mapping/test_grid_slam.py
+	tests/navigation/costmap tests/navigation/planners tests/navigation/localization/test_pose_bins.py tests/navigation/localization/test_scan_likelihood.py
 BUILD_INPLACE = $(VENV)/bin/python setup.py --quiet build_ext --inplace
 ON_KERNELS = $(VENV)/bin/python -m pytest -q -n $(WORKERS) --dist loadfile -m "not slow" -p no:cacheprovider \
 	-W error::pytest.PytestUnraisableExceptionWarning $(KERNEL_TESTS)

@@ -17,7 +17,7 @@ from websockets.sync.client import ClientConnection, connect
 
 from gazelle_ros import Master, Node, Publisher, load_message
 from gazelle_ros.rosbridge.server import BridgeServer
-from gazelle_ros.rosbridge.settings import settings_from
+from gazelle_ros.rosbridge.settings import BridgeSettings
 
 RAYS = 360
 TOPIC = "/scan"
@@ -51,7 +51,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="gazelle bench rosbridge", description=__doc__)
     parser.add_argument("--scans", type=int, default=1000, help="for each figure (%(default)s)")
     args = parser.parse_args()
-    settings = settings_from({"port": 0, "unregister_timeout": 0.05})
+    settings = BridgeSettings(port=0, unregister_timeout=0.05)
     print(f"{RAYS} rays{'us a scan':>20}{'bytes':>10}")
     with (
         Master(port=0, rosout=False) as master,

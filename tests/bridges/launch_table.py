@@ -61,6 +61,7 @@ QUICK = [
         topics="/joint_states /mobile_base/commands/motor_power "
         "/mobile_base/commands/reset_odometry /mobile_base/commands/velocity "
         "/mobile_base/events/bumper /mobile_base/events/cliff /mobile_base/sensors/imu_data "
+        "/mobile_base/sensors/core /mobile_base_nodelet_manager/bond "
         "/odom /tf /tf_static",
         frames="odom>base_footprint base_footprint>base_link base_link>caster_back_link "
         "base_link>caster_front_link base_link>cliff_sensor_front_link "

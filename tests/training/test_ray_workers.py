@@ -104,6 +104,7 @@ def test_processors_of_the_cluster_are_counted():
     assert connect("auto") == 2
 
 
+@pytest.mark.slow
 def test_a_search_is_done_by_a_cluster_and_its_runs_come_back(tmp_path):
     pytest.importorskip("optuna")
     from test_sweep import TASK_FILE, write

@@ -8,7 +8,7 @@ from tests.ros import real
 from tests.ros.graph import until
 from tests.viewer.graph_page import graph_page
 
-pytestmark = [pytest.mark.ros, pytest.mark.long, real.needs_ros]
+pytestmark = [pytest.mark.ros, pytest.mark.long, pytest.mark.slow, real.needs_ros]
 
 ROBOT = """
 from geometry_msgs.msg import PoseStamped, TransformStamped
