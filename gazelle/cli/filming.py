@@ -25,6 +25,7 @@ _LEAST, _MOST = 16, 8192
 _SIZE = 960, 600
 
 _WORLD, _RECORDING, _BAG, _RUN = "a world or a robot", "a recording", "a bag", "a training run"
+_KINDS = {".bag": _BAG, ".jsonl": _RECORDING}
 _SCENES = (_WORLD, _RECORDING)
 # What takes the options that not every source has.
 _TAKERS = {
@@ -99,8 +100,9 @@ def opened(args: argparse.Namespace) -> Any:
     from gazelle.viewer import sources
 
     path = Path(args.source)
-    if sources.is_run(path):
-        _refuse_others(args, _RUN)
+    kind = _RUN if sources.is_run(path) else _KINDS.get(path.suffix, _WORLD)
+    _refuse_others(args, kind)
+    if kind == _RUN:
         return sources.PolicySource(
             path,
             seed=10_000 if args.seed is None else args.seed,
@@ -109,15 +111,12 @@ def opened(args: argparse.Namespace) -> Any:
             trust=args.trust,
             **environment_options(args),
         )
-    if path.suffix == ".bag":
+    if kind == _BAG:
         from gazelle.viewer.bag_top_view import bag_source
 
-        _refuse_others(args, _BAG)
         return bag_source(path, args.topic, top=args.top, size=args.size or _SIZE)
-    if path.suffix == ".jsonl":
-        _refuse_others(args, _RECORDING)
+    if kind == _RECORDING:
         return sources.RecordingSource(path, lambda simulation: _camera(simulation, args))
-    _refuse_others(args, _WORLD)
     return _running(args)
 
 

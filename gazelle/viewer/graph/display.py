@@ -21,6 +21,7 @@ from gazelle.viewer.graph.motions import MotionTopic
 from gazelle.viewer.graph.robots import DescribedRobot
 from gazelle.viewer.graph.statuses import Arrivals, DisplayStatus, status_of
 from gazelle.viewer.graph.styles import SIZE_LABELS, default_style
+from gazelle.viewer.page.shapes import corners_around
 from gazelle_ros import Subscriber, load_message
 from gazelle_ros.messages import Message
 from gazelle_ros.tf import TransformException
@@ -85,10 +86,7 @@ class TopicDisplay:
         boxes = list(self.drawing.extents.values())
         if not boxes or not self.anchor.visible:
             return None
-        low = np.min([box[0] for box in boxes], axis=0)
-        high = np.max([box[1] for box in boxes], axis=0)
-        corners = np.array(np.meshgrid(*zip(low, high, strict=True))).reshape(3, -1).T
-        placed = self._in_fixed(corners)
+        placed = self._in_fixed(corners_around(np.vstack(boxes)))
         return np.array([placed.min(axis=0), placed.max(axis=0)])
 
     @property
