@@ -41,7 +41,7 @@ help:
 	@echo "make lint       ruff (check and format) and mypy in strict mode"
 	@echo "make docs       the documentation as a site, in build/docs; warnings are errors"
 	@echo "make bench      the benchmark of the environments"
-	@echo "make checked    kernels' tests with checked indices, then with sanitizers (gcc)"
+	@echo "make checked    kernels' tests with checked indices and sanitizers (gcc)"
 	@echo "make wheel      wheels for Linux, macOS and Windows into dist, with Zig's C compiler"
 	@echo "make clean      remove .venv and caches"
 
@@ -94,9 +94,8 @@ bench: $(ALL)
 	$(VENV)/bin/gazelle bench env
 
 checked: $(ALL)
-	GAZELLE_BUILD="checked sanitize" $(BUILD_INPLACE)
-	GAZELLE_NATIVE=checked $(ON_KERNELS)
-	GAZELLE_NATIVE=sanitize ASAN_OPTIONS=detect_leaks=0 \
+	GAZELLE_BUILD=checked $(BUILD_INPLACE)
+	GAZELLE_NATIVE=checked ASAN_OPTIONS=detect_leaks=0 \
 		LD_PRELOAD="$$(gcc -print-file-name=libasan.so) $$(gcc -print-file-name=libubsan.so)" $(ON_KERNELS)
 
 # TARGETS names platforms of tools/compiling/wheels.py; without it all are built.

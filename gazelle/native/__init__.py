@@ -12,8 +12,8 @@ used is decided once, for the whole process:
 ==========  ======================================================================================
 `baseline`  any 64-bit processor; on x86 one of 2009 or newer (x86-64-v2)
 `avx2`      x86 with AVX2; used where the processor and the system have it; the same bits
-`checked`   indices and arguments are checked; for tests (``make checked``)
-`sanitize`  as that, with the address and undefined-behaviour sanitizers (``make sanitize``)
+`checked`   indices and arguments are checked, also by the address and undefined-behaviour
+            sanitizers; for tests (``make checked``)
 `python`    nothing compiled: Python runs the sources, which a debugger can step through
 ==========  ======================================================================================
 

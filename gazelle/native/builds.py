@@ -13,7 +13,7 @@ from typing import Final
 
 from gazelle.errors import EngineError
 
-BUILDS: Final = ("baseline", "avx2", "checked", "sanitize", "python")
+BUILDS: Final = ("baseline", "avx2", "checked", "python")
 _HERE: Final = Path(__file__).parent
 
 

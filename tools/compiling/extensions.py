@@ -48,8 +48,7 @@ LIMITED_API = "0x030B0000"
 BUILDS = {
     "baseline": FAST,
     "avx2": [*FAST, "-mavx2"],
-    "checked": ["-O0", *PRECISE, "-g1"],
-    "sanitize": [
+    "checked": [
         *["-O0", *PRECISE, "-g1", "-fno-omit-frame-pointer"],
         *["-fsanitize=address,undefined", "-fno-sanitize-recover=undefined"],
     ],
@@ -83,7 +82,7 @@ def extensions() -> list[Extension]:
     """Return every module in every build; C files are made where they are outdated."""
     found = []
     for checks in (False, True):
-        chosen = [name for name in builds() if (name in ("checked", "sanitize")) == checks]
+        chosen = [name for name in builds() if (name == "checked") == checks]
         if chosen:
             modules = _translated("checked" if checks else "plain", CHECKED if checks else {})
             found += [
