@@ -84,6 +84,11 @@ class Launched:
         """What the launch and its nodes have written so far."""
         return self._log.read_text(encoding="utf-8")
 
+    @property
+    def ended(self):
+        """Whether the launch is over."""
+        return self._process.poll() is not None
+
     def look(self):
         """Return the present models, topics and frames."""
         published, subscribed, _ = self.node.master.system_state()

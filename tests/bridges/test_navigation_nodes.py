@@ -284,6 +284,21 @@ def test_a_global_planner_publishes_its_plan_and_potential(room):
     assert cells[0].tolist() == [-1] * 80
     assert cells[20, 20] < cells[30, 30] < cells[50, 50] < cells[60, 60]
     assert plans[0].poses[-1].pose.position.y == pytest.approx(3.01)
+    service = load_service("dynamic_reconfigure/Reconfigure")
+    tuned = room.node.client(f"{topic}/set_parameters", service)
+    request = service._request_class()
+    request.config.ints = [
+        load_message("dynamic_reconfigure/IntParameter")(name=name, value=value)
+        for name, value in (("neutral_cost", 70), ("orientation_mode", 9))
+    ]
+    request.config.bools = [
+        load_message("dynamic_reconfigure/BoolParameter")(name="publish_potential", value=False)
+    ]
+    answer = tuned.call(request, 30.0).config
+    assert {each.name: each.value for each in answer.ints}["orientation_mode"] == 6
+    planner = move_base._law.planner
+    assert planner.settings.neutral_cost == planner.prices()[0] == 70
+    assert planner.on_potential is None
 
 
 def test_costmaps_are_published_and_cleared(room, move_base):

@@ -88,16 +88,8 @@ class Traveller:
     def begin(self, x, y):
         """Publish the robot's pose to amcl, and wait for move_base."""
         until(lambda: self._states and self.located, PATIENCE)
-        message = load_message("geometry_msgs/PoseWithCovarianceStamped")()
-        message.header.frame_id = "map"
-        message.header.stamp = Time(nsecs=self.node.clock.now())
-        place = message.pose.pose
-        place.position.x, place.position.y, place.orientation.w = x, y, 1.0
-        message.pose.covariance = [0.0] * 36
-        message.pose.covariance[0] = message.pose.covariance[7] = 0.25
-        message.pose.covariance[35] = 0.06
         before = len(self.located)
-        self._begin.publish(message)
+        self._begin.publish(pose_message(self.node.clock.now(), (x, y, 0.0)))
         until(lambda: len(self.located) > before, PATIENCE)
         assert self._client.wait_for_server(PATIENCE)
 
@@ -127,6 +119,21 @@ class Traveller:
         for _ in range(count):
             place = chosen.choice([each for each in FREE if math.dist(each, self.place) > 0.3])
             yield self.go(*place, chosen.uniform(-3.1, 3.1))
+
+
+def pose_message(now, pose):
+    """Return the message of a robot's pose in the map, as RViz gives it."""
+    x, y, yaw = pose
+    message = load_message("geometry_msgs/PoseWithCovarianceStamped")()
+    message.header.frame_id = "map"
+    message.header.stamp = Time(nsecs=now)
+    place = message.pose.pose
+    place.position.x, place.position.y = x, y
+    place.orientation.z, place.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
+    message.pose.covariance = [0.0] * 36
+    message.pose.covariance[0] = message.pose.covariance[7] = 0.25
+    message.pose.covariance[35] = 0.06
+    return message
 
 
 @contextmanager

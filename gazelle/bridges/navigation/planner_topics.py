@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,16 +15,17 @@ from gazelle.bridges.navigation.messages import path_message
 from gazelle.description import Pose
 from gazelle.description.occupancy import UNKNOWN, OccupancyMap
 from gazelle.navigation.following import Pose2
-from gazelle.navigation.planners.global_planner import GlobalPlanner
+from gazelle.navigation.planners.global_planner import GlobalPlanner, GlobalPlannerSettings
 from gazelle.navigation.planners.navfn import NO_PLAN
 from gazelle.navigation.planners.plugins import GlobalPlannerPlugin
 from gazelle.navigation.planners.potential import NOT_REACHED
+from gazelle_ros.builtin.tuned_settings import TunedSettings
 from gazelle_ros.msgs import geometry_msgs, nav_msgs
 from gazelle_ros.node import Node
 
 
 class PlannerTopics:
-    """Topics ``plan`` and, of `GlobalPlanner`, ``potential``, and the service ``make_plan``.
+    """Topics ``plan``, ``make_plan`` and, of `GlobalPlanner`, ``potential`` and its settings.
 
     Args:
         node: On the graph.
@@ -44,11 +46,16 @@ class PlannerTopics:
         name = f"~{planner.name}"
         self._plans = node.advertise(f"{name}/plan", nav_msgs.msg.Path, queue_size=1)
         node.serve(f"{name}/make_plan", nav_msgs.srv.GetPlan, self._make_plan)
-        if isinstance(planner, GlobalPlanner) and planner.settings.publish_potential:
+        if isinstance(planner, GlobalPlanner):
             grid = nav_msgs.msg.OccupancyGrid
             self._potentials = node.advertise(f"{name}/potential", grid, queue_size=1)
-            self._scale = planner.settings.publish_scale
-            planner.on_potential = self._publish_potential
+            self._tune(planner, planner.settings)
+            TunedSettings(node, planner.settings, partial(self._tune, planner), name)
+
+    def _tune(self, planner: GlobalPlanner, settings: GlobalPlannerSettings) -> None:
+        with self._lock:
+            planner.settings, self._scale = settings, settings.publish_scale
+            planner.on_potential = self._publish_potential if settings.publish_potential else None
 
     def publish(self, plan: Floats, now: int) -> None:
         """Publish a plan made at a time [ns]."""

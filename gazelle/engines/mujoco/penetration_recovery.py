@@ -10,7 +10,8 @@ The contacts of what overlaps each want to part at ``max_vel``. Where they face 
 is a motion that parts all of them, but it is fast: out of a wedge of the half angle a at
 ``max_vel`` / sin(a), and about two points that are d apart with ``max_vel`` / d. Where there is
 none, as between rings that are linked, contacts throw what they hold. So while a free body
-recovers, its speed grows beyond twice ``max_vel`` by no more than gravity's work.
+recovers, its speed grows beyond twice ``max_vel``, and beyond that at which its joints move its own
+parts, by no more than gravity's work: a robot drives while it rises out of the ground.
 """
 
 from __future__ import annotations
@@ -304,6 +305,12 @@ class RecoverySpeedLimit:
         place = np.full(model.nbody, -1)
         place[bodies] = np.arange(len(bodies))
         self._place = place[model.body_rootid[model.geom_bodyid]]
+        own = np.flatnonzero(
+            (model.jnt_type != free) & (place[model.body_rootid[model.jnt_bodyid]] >= 0)
+        )
+        self._driven = place[model.body_rootid[model.jnt_bodyid[own]]]
+        self._dof = model.jnt_dofadr[own]
+        self._reach = np.array([_reach(model, joint) for joint in own.tolist()])
         self._most = np.zeros(len(bodies))
         np.maximum.at(self._most, self._place[self._place >= 0], speed[self._place >= 0])
 
@@ -333,15 +340,31 @@ class RecoverySpeedLimit:
         worlds, bodies = np.unique(np.stack((worlds, bodies)), axis=1)
         rows, dofs, places = worlds[:, None], self._dofs[bodies], self._heights[bodies]
         fallen = (state.qpos[rows, places] - before[0][rows, places]) @ self._gravity
-        least = np.square(_FASTER * self._most[bodies])
+        least = np.square(np.maximum(_FASTER * self._most, self._of_joints(state))[worlds, bodies])
         allowed = np.maximum(self._square(before[1][rows, dofs], bodies), least)
         allowed += 2.0 * np.maximum(fallen, 0.0)
         square = self._square(state.qvel[rows, dofs], bodies)
         share = np.sqrt(allowed / np.maximum(square, allowed))
         state.qvel[rows, dofs] *= share[:, None]
 
+    def _of_joints(self, state: StateViews) -> Floats:
+        """Return the greatest speed at which joints move parts of each body [m/s], by world."""
+        found = np.zeros((len(state.qvel), len(self._most)))
+        speed = np.abs(state.qvel[:, self._dof]) * self._reach
+        np.maximum.at(found.T, self._driven, speed.T)
+        return found
+
     def _square(self, velocity: Floats, bodies: NDArray[np.intp]) -> Floats:
         """Return twice the energy over the mass [m²/s²]."""
         linear, angular = np.square(velocity[:, :3]), np.square(velocity[:, 3:])
         found: Floats = linear.sum(axis=1) + self._gyration[bodies] * angular.sum(axis=1)
         return found
+
+
+def _reach(model: mujoco.MjModel, joint: int) -> float:
+    """Return how far a joint moves its link's farthest point at 1 rad/s, or 1 m/s [m]."""
+    if model.jnt_type[joint] == mujoco.mjtJoint.mjJNT_SLIDE:
+        return 1.0
+    geoms = np.flatnonzero(model.geom_bodyid == model.jnt_bodyid[joint])
+    apart = np.linalg.norm(model.geom_pos[geoms] - model.jnt_pos[joint], axis=1)
+    return float((apart + model.geom_rbound[geoms]).max(initial=0.0))

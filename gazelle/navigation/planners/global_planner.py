@@ -16,7 +16,9 @@ from gazelle.navigation.costmap.values import NO_INFORMATION
 from gazelle.navigation.following import Pose2, wrapped
 from gazelle.navigation.planners.navfn import PotentialPlanner
 from gazelle.navigation.planners.plugins import Values
+from gazelle.navigation.planners.potential import PotentialField
 from gazelle_ros.base.parameter_values import settings_from
+from gazelle_ros.base.tuned_fields import tunable, tuned_fields
 
 _FORWARD, _INTERPOLATE, _FORWARD_THEN_INTERPOLATE = 1, 2, 3
 _SIDES: Final = {
@@ -27,14 +29,6 @@ _SIDES: Final = {
     6: math.pi / 2.0,
 }
 """Heading less that of the path [rad], by mode; 4 is backward, 5 leftward and 6 rightward."""
-_MODES: Final = range(7)
-_LIMITS: Final = {
-    "lethal_cost": (1, 255),
-    "neutral_cost": (1, 255),
-    "cost_factor": (0.01, 5.0),
-    "orientation_window_size": (1, 255),
-}
-"""Least and greatest values; others become the nearest ones, as dynamic_reconfigure makes them."""
 _STRAIGHT_RAD: Final = 0.35
 """Greatest change of heading between two poses of a straight line."""
 
@@ -43,36 +37,36 @@ _STRAIGHT_RAD: Final = 0.35
 class GlobalPlannerSettings:
     """Parameters of ``global_planner``; names and defaults are the original's.
 
-    ``use_dijkstra`` false makes the original look at fewer cells, by A*; the way here is the cheapest
-    one in both cases. ``planner_window_x`` and ``planner_window_y`` are not used there either, and the
-    outermost cells are closed here whatever ``outline_map`` says.
+    With ``use_dijkstra`` false a price is the cell's cost and ``neutral_cost``, as there, but costs from
+    206 on do not become cheap, which they do there where the sum of both exceeds a byte.
+    ``planner_window_x`` and ``planner_window_y`` are not used there either, and the outermost cells are
+    closed here whatever ``outline_map`` says.
     """
 
     allow_unknown: bool = True
     default_tolerance: float = 0.0
-    lethal_cost: int = 253
-    neutral_cost: int = 50
-    cost_factor: float = 3.0
+    lethal_cost: int = tunable(253, 1, 255, "cost from which a cell is closed")
+    neutral_cost: int = tunable(50, 1, 255, "price of a cell without any cost")
+    cost_factor: float = tunable(3.0, 0.01, 5.0, "price of each unit of a cell's cost")
     use_dijkstra: bool = True
     use_quadratic: bool = True
     use_grid_path: bool = False
     old_navfn_behavior: bool = False
-    orientation_mode: int = 0
-    orientation_window_size: int = 1
-    publish_potential: bool = True
+    orientation_mode: int = tunable(
+        1, 0, 6, "0 none, 1 forward, 2 interpolate, 3 both, 4 backward, 5 leftward, 6 rightward"
+    )
+    orientation_window_size: int = tunable(1, 1, 255, "poses to each side that give a heading")
+    publish_potential: bool = tunable(default=True, description="publish the potential of plans")
     publish_scale: int = 100
     outline_map: bool = True
     planner_window_x: float = 0.0
     planner_window_y: float = 0.0
 
     def __post_init__(self) -> None:
-        for name, (least, most) in _LIMITS.items():
-            value = getattr(self, name)
-            if math.isnan(value):
-                raise Error(f"'{name}' is a number from {least} to {most}, not {value}")
-            object.__setattr__(self, name, min(max(value, least), most))
-        if self.orientation_mode not in _MODES:
-            raise Error(f"'orientation_mode' is 0 to {_MODES[-1]}, not {self.orientation_mode}")
+        if math.isnan(self.cost_factor):
+            raise Error(f"'cost_factor' is a number from 0.01 to 5.0, not {self.cost_factor}")
+        for each in tuned_fields(GlobalPlannerSettings).values():
+            object.__setattr__(self, each.name, each.clamp(getattr(self, each.name)))
         if not 0 < self.publish_scale <= 100:
             raise Error(f"'publish_scale' is 1 to 100, not {self.publish_scale}")
 
@@ -88,20 +82,41 @@ class GlobalPlanner(PotentialPlanner):
     def __init__(self, name: str, costmap: Costmap, parameters: Values) -> None:
         super().__init__(name, costmap, parameters)
         self.settings = settings_from(name, parameters, GlobalPlannerSettings)
+        self.dijkstra = self.settings.use_dijkstra
         self.quadratic = self.settings.use_quadratic
         self.grid_path = self.settings.use_grid_path
         self.exact_start = not self.settings.old_navfn_behavior
 
     def prices(self) -> Floats32:
         """Return neutral cost and factor times cost, below lethal; see `PotentialPlanner`."""
-        lethal = self.settings.lethal_cost
+        lethal, neutral = self.settings.lethal_cost, self.settings.neutral_cost
         costs = np.arange(256, dtype=np.float32)
-        table = self.settings.neutral_cost + self.settings.cost_factor * costs
-        table = np.minimum(table, lethal - 1.0)
-        table[costs >= lethal - 1] = 0.0
-        table[NO_INFORMATION] = lethal - 1.0 if self.allow_unknown else 0.0
+        if self.dijkstra:
+            table = np.minimum(neutral + self.settings.cost_factor * costs, lethal - 1.0)
+            table[costs >= lethal - 1] = 0.0
+            unknown = lethal - 1.0
+        else:
+            table = neutral + costs
+            table[costs >= lethal] = 0.0
+            unknown = neutral + float(NO_INFORMATION)
+        table[NO_INFORMATION] = unknown if self.allow_unknown else 0.0
         prices: Floats32 = table.astype(np.float32)
         return prices
+
+    def spread(
+        self,
+        field: PotentialField,
+        prices: Floats32,
+        ends: tuple[tuple[int, int], tuple[int, int]],
+        least: float,
+        *,
+        everywhere: bool,
+    ) -> None:
+        """Find potentials, by A* where ``use_dijkstra`` is false; see `PotentialPlanner`."""
+        if self.dijkstra:
+            super().spread(field, prices, ends, least, everywhere=everywhere)
+        else:
+            field.seek(prices, *ends, float(self.settings.neutral_cost), self.quadratic)
 
     def oriented(self, plan: Floats, start: Pose2) -> Floats:
         """Return headings by ``orientation_mode``; the goal keeps its own."""

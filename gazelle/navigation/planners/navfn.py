@@ -69,7 +69,7 @@ class PotentialPlanner(GlobalPlannerPlugin):
         field = self._prepared()
         reach = self.tolerance if tolerance is None else tolerance
         least = float(table[table > 0.0].min())
-        field.spread(prices, first, last if reach <= 0.0 else None, least, self.quadratic)
+        self.spread(field, prices, (first, last), least, everywhere=reach > 0.0)
         if self.on_potential is not None:
             self.on_potential(field.values)
         end = last if reach <= 0.0 else self._nearest(field, last, reach)
@@ -79,6 +79,26 @@ class PotentialPlanner(GlobalPlannerPlugin):
         if not len(cells):
             return NO_PLAN
         return self._posed(cells[::-1], start, goal, exact=end == last)
+
+    def spread(
+        self,
+        field: PotentialField,
+        prices: Floats32,
+        ends: tuple[tuple[int, int], tuple[int, int]],
+        least: float,
+        *,
+        everywhere: bool,
+    ) -> None:
+        """Find potentials from one cell to another, or everywhere.
+
+        Args:
+            field: Of the costmap's shape.
+            prices: Of all cells.
+            ends: Columns and rows of the robot and of the goal.
+            least: The least price of an open cell.
+            everywhere: Whether cells around a goal out of reach are needed, too.
+        """
+        field.spread(prices, ends[0], None if everywhere else ends[1], least, self.quadratic)
 
     def _prepared(self) -> PotentialField:
         rows, columns = self.costmap.cells.shape

@@ -13,6 +13,7 @@ import numpy as np
 from cython.cimports.libc.math import fabs, sqrt
 
 from gazelle.array_types import Floats, Floats32
+from gazelle.navigation.planners.astar import seek
 
 NOT_REACHED = 1e10
 """The potential of cells that cannot be reached, or have not been."""
@@ -71,17 +72,46 @@ class PotentialField:
         Returns:
             Whether the target was reached; with None, True.
         """
+        self._clear(prices)
+        np.asarray(self._waiting).fill(0)
+        first: cython.int = source[1] * self._columns + source[0]
+        last: cython.int = -1 if target is None else target[1] * self._columns + target[0]
+        self._run(first, last, step, quadratic)
+        return bool(last < 0 or self._value[last] < _FAR)
+
+    def seek(
+        self,
+        prices: Floats32,
+        source: tuple[int, int],
+        target: tuple[int, int],
+        neutral: float,
+        quadratic: int = 1,
+    ) -> bool:
+        """Find the potentials of cells towards a target, as few as A* needs.
+
+        Args:
+            prices: As for `spread`.
+            source: Column and row where the potential is 0.
+            target: Column and row that it must reach.
+            neutral: Price of a cell in the heuristic.
+            quadratic: As for `spread`.
+
+        Returns:
+            Whether the target was reached; if not, all cells that can be reached have a potential.
+        """
+        self._clear(prices)
+        ends = source[1] * self._columns + source[0], target[1] * self._columns + target[0]
+        price, value = np.asarray(self._price), np.asarray(self._value)
+        return seek(price, value, self._columns, ends, neutral, quadratic)
+
+    def _clear(self, prices: Floats32) -> None:
+        """Set the prices, and all potentials to `NOT_REACHED`."""
         price = np.asarray(self._price).reshape(self._rows, self._columns)
         # No way through a closed cell is cheaper than none, so that it needs no question of its own.
         np.copyto(price, np.float32(np.inf))
         inner = slice(1, -1), slice(1, -1)
         np.copyto(price[inner], prices[inner], where=prices[inner] > 0.0)
         np.asarray(self._value).fill(NOT_REACHED)
-        np.asarray(self._waiting).fill(0)
-        first: cython.int = source[1] * self._columns + source[0]
-        last: cython.int = -1 if target is None else target[1] * self._columns + target[0]
-        self._run(first, last, step, quadratic)
-        return bool(last < 0 or self._value[last] < _FAR)
 
     @cython.cfunc
     @cython.exceptval(check=False)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import scenes
 
+import gazelle
 from gazelle.description import Bounce, Contact, Friction, Joint, JointAxis, Model, Pose, Surface
 from gazelle.engines import make_engine
 from gazelle.engines.laws import with_profile
@@ -59,6 +60,16 @@ def test_by_default_nothing_is_thrown():
     for _ in range(100):
         engine.step(10)
         assert np.abs(engine.links["box::link"].motion().linear).max() < 0.05
+
+
+def test_a_robot_drives_while_it_rises_out_of_the_ground():
+    with gazelle.Simulation("empty") as sim:
+        robot = sim.spawn("courier", pose=Pose(z=-0.02))
+        robot.inputs["cmd_vel"].send(linear=0.2)
+        sim.run(1.0)
+        assert robot.pose.z == pytest.approx(-0.01, abs=1e-3)
+        # Sunk wheels touch the ground nearer to their axles.
+        assert 0.12 < robot.pose.x < 0.2
 
 
 def test_what_bounces_is_let_out_too():

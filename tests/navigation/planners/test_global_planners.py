@@ -180,7 +180,7 @@ def test_a_plan_begins_at_the_robot_or_as_navfn_in_its_cell():
     plan = GlobalPlanner("g", costmap, {}).make_plan(*ends)
     assert plan[0, :2].tolist() == [0.51, 0.54]
     assert plan[-1].tolist() == [2.51, 1.52, 0.3]
-    old = {"old_navfn_behavior": True, "cost_factor": 0.8}
+    old = {"old_navfn_behavior": True, "cost_factor": 0.8, "orientation_mode": 0}
     plan = GlobalPlanner("g", costmap, old).make_plan(*ends)
     assert np.array_equal(plan, NavfnPlanner("n", costmap, {}).make_plan(*ends))
 
@@ -188,7 +188,6 @@ def test_a_plan_begins_at_the_robot_or_as_navfn_in_its_cell():
 @pytest.mark.parametrize(
     ("values", "text"),
     [
-        ({"orientation_mode": 7}, "'orientation_mode' is 0 to 6, not 7"),
         ({"publish_scale": 0}, "'publish_scale' is 1 to 100, not 0"),
         ({"cost_factor": math.nan}, "'cost_factor' is a number from 0.01 to 5.0, not nan"),
         ({"neutral_cost": "dear"}, "the parameter 'neutral_cost' is a int, not 'dear'"),
@@ -201,9 +200,10 @@ def test_wrong_parameters_are_refused(values, text):
 
 def test_costs_out_of_their_limits_become_the_nearest_ones():
     costmap = costmap_of_cells(np.zeros((60, 60), np.uint8))
-    given = {"neutral_cost": 0, "cost_factor": 9.0, "lethal_cost": 300}
+    given = {"neutral_cost": 0, "cost_factor": 9.0, "lethal_cost": 300, "orientation_mode": 7}
     settings = GlobalPlanner("g", costmap, given).settings
     assert (settings.neutral_cost, settings.cost_factor, settings.lethal_cost) == (1, 5.0, 255)
+    assert settings.orientation_mode == 6
     closed = GlobalPlanner("g", costmap, {"lethal_cost": -1})
     assert len(closed.make_plan((0.5, 0.5, 0.0), (2.5, 2.5, 0.0))) == 0
 

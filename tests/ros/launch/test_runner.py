@@ -111,6 +111,17 @@ def test_a_failing_command_stops_all_before_it_begins(launch, script, master):
     assert caught.value.line == 2
 
 
+def test_a_wrapper_of_a_command_finds_our_python(launch, script, master, tmp_path, monkeypatch):
+    monkeypatch.setenv("PATH", "/usr/bin:/bin")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    wrapper = script("wrap.sh", '#!/bin/sh\nexec "$@"\n')
+    said = "import gazelle_ros; print(7)"
+    launch(f'<param name="c" command="{wrapper} python3 -c \'{said}\'"/>')
+    proxy = MasterProxy(master.uri, "/test")
+    assert proxy.get_param("/c") == 7
+    proxy.close()
+
+
 def test_nodes_get_arguments_names_and_environment(launch, script, tmp_path):
     script(
         "say.sh",

@@ -9,10 +9,11 @@ from pathlib import Path
 from typing import Any
 
 from gazelle_ros.base.errors import RosError
+from gazelle_ros.base.tuned_fields import tunable
 from gazelle_ros.builtin.arguments import CallbackWork, run_node
 from gazelle_ros.builtin.mux_inputs import MuxInput, mux_input
 from gazelle_ros.builtin.parameters import settings_of
-from gazelle_ros.builtin.tuned_settings import TunedSettings, tunable
+from gazelle_ros.builtin.tuned_settings import TunedSettings
 from gazelle_ros.clock import SECOND
 from gazelle_ros.launch.values import load_yaml
 from gazelle_ros.msgs import geometry_msgs, std_msgs

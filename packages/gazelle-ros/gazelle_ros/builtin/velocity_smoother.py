@@ -10,9 +10,10 @@ from statistics import median_high
 
 from gazelle_ros.base.errors import RosError
 from gazelle_ros.base.parameter_values import positive
+from gazelle_ros.base.tuned_fields import tunable
 from gazelle_ros.builtin.parameters import private_values, settings_of
 from gazelle_ros.builtin.speeds import Speeds, repeat, twist_of
-from gazelle_ros.builtin.tuned_settings import TunedSettings, tunable
+from gazelle_ros.builtin.tuned_settings import TunedSettings
 from gazelle_ros.clock import SECOND
 from gazelle_ros.msgs import geometry_msgs, nav_msgs
 from gazelle_ros.node import Node

@@ -15,7 +15,7 @@ from typing import Any
 
 from gazelle_ros.base.child_processes import child_process
 from gazelle_ros.base.errors import Error
-from gazelle_ros.builtin import registry, terminal
+from gazelle_ros.builtin import on_path, registry, terminal
 from gazelle_ros.launch.errors import LaunchError
 from gazelle_ros.launch.packages import Packages, is_python
 from gazelle_ros.launch.plan import LaunchParameter, NodePlan, ParameterCommand
@@ -224,7 +224,8 @@ def _output(text: str, packages: Packages, environment: Mapping[str, str] | None
         raise LaunchError(f"the command '{text}' is not well quoted: {error}") from None
     if not words:
         raise LaunchError("the command is empty")
-    env = None if environment is None else dict(environment)
+    env = dict(os.environ if environment is None else environment)
+    on_path.offer(env)  # a wrapper such as Jackal's env_run starts xacro by its file
     pipes = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
     try:
         with child_process(command_line(words, packages), env=env, **pipes) as process:

@@ -11,7 +11,7 @@ import numpy as np
 
 from gazelle_ros.base.array_types import Pixels
 from gazelle_ros.base.errors import RosError, did_you_mean
-from gazelle_ros.builtin.tuned_settings import tunable
+from gazelle_ros.base.tuned_fields import tunable
 from gazelle_ros.compat.cv_bridge.core import CvBridge
 from gazelle_ros.compat.cv_bridge.encodings import CvBridgeError, Encoding, encoding_of
 from gazelle_ros.msgs import sensor_msgs

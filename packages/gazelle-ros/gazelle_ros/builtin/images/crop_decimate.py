@@ -9,6 +9,7 @@ import numpy as np
 
 from gazelle_ros.base.array_types import Pixels
 from gazelle_ros.base.resampling import Interpolation, resize
+from gazelle_ros.base.tuned_fields import tunable
 from gazelle_ros.builtin.images.conversion import (
     QUEUE,
     TRANSPORT_PARAMETERS,
@@ -16,7 +17,7 @@ from gazelle_ros.builtin.images.conversion import (
     camera_topics,
 )
 from gazelle_ros.builtin.parameters import settings_of
-from gazelle_ros.builtin.tuned_settings import TunedSettings, tunable
+from gazelle_ros.builtin.tuned_settings import TunedSettings
 from gazelle_ros.compat.cv_bridge import CvBridge
 from gazelle_ros.msgs import sensor_msgs
 from gazelle_ros.node import Node

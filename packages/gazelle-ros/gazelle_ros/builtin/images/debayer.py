@@ -6,9 +6,10 @@ import logging
 from dataclasses import dataclass
 
 from gazelle_ros.base.errors import RosError
+from gazelle_ros.base.tuned_fields import tunable
 from gazelle_ros.builtin.images.conversion import QUEUE, TRANSPORT_PARAMETERS, ImageConversion
 from gazelle_ros.builtin.parameters import settings_of
-from gazelle_ros.builtin.tuned_settings import TunedSettings, tunable
+from gazelle_ros.builtin.tuned_settings import TunedSettings
 from gazelle_ros.compat.cv_bridge import CvBridge
 from gazelle_ros.compat.cv_bridge.encodings import encoding_of
 from gazelle_ros.msgs import sensor_msgs

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from gazelle_ros.base.resampling import Interpolation, Resampling
+from gazelle_ros.base.tuned_fields import tunable
 from gazelle_ros.builtin.images.conversion import (
     QUEUE,
     TRANSPORT_PARAMETERS,
@@ -13,7 +14,7 @@ from gazelle_ros.builtin.images.conversion import (
     camera_topics,
 )
 from gazelle_ros.builtin.parameters import settings_of
-from gazelle_ros.builtin.tuned_settings import TunedSettings, tunable
+from gazelle_ros.builtin.tuned_settings import TunedSettings
 from gazelle_ros.compat.cv_bridge import CvBridge
 from gazelle_ros.compat.image_geometry.cameramodels import PinholeCameraModel
 from gazelle_ros.msgs import sensor_msgs

@@ -7,10 +7,11 @@ from dataclasses import dataclass
 
 from gazelle_ros.base.errors import RosError
 from gazelle_ros.base.resampling import Interpolation, resize
+from gazelle_ros.base.tuned_fields import tunable
 from gazelle_ros.builtin.arguments import CallbackWork
 from gazelle_ros.builtin.images.conversion import TRANSPORT_PARAMETERS, ImageConversion
 from gazelle_ros.builtin.parameters import settings_of
-from gazelle_ros.builtin.tuned_settings import TunedSettings, tunable
+from gazelle_ros.builtin.tuned_settings import TunedSettings
 from gazelle_ros.compat.cv_bridge import CvBridge
 from gazelle_ros.msgs import sensor_msgs
 from gazelle_ros.node import Node

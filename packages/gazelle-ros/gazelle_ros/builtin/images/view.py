@@ -9,10 +9,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from gazelle_ros.base.array_types import Pixels
+from gazelle_ros.base.tuned_fields import tunable
 from gazelle_ros.builtin.arguments import run_node
 from gazelle_ros.builtin.images.conversion import TRANSPORT_PARAMETERS, ImageConversion
 from gazelle_ros.builtin.parameters import settings_of
-from gazelle_ros.builtin.tuned_settings import TunedSettings, tunable
+from gazelle_ros.builtin.tuned_settings import TunedSettings
 from gazelle_ros.compat.cv_bridge import CvBridge
 from gazelle_ros.compat.cv_bridge.encodings import encoding_of
 from gazelle_ros.msgs import sensor_msgs

@@ -12,6 +12,7 @@ from typing import Any
 
 from gazelle_ros.base.errors import RosError, did_you_mean
 from gazelle_ros.base.rotations import Quaternion, Vector, conjugate, multiply
+from gazelle_ros.base.tuned_fields import tunable
 from gazelle_ros.builtin.arguments import CallbackWork, run_node
 from gazelle_ros.builtin.imu.complementary import ComplementaryFilter
 from gazelle_ros.builtin.imu.madgwick import (
@@ -21,7 +22,7 @@ from gazelle_ros.builtin.imu.madgwick import (
 )
 from gazelle_ros.builtin.imu.quaternions import about_z
 from gazelle_ros.builtin.parameters import settings_of
-from gazelle_ros.builtin.tuned_settings import TunedSettings, tunable
+from gazelle_ros.builtin.tuned_settings import TunedSettings
 from gazelle_ros.clock import SECOND
 from gazelle_ros.compat.message_filters import ApproximateTimeSynchronizer, SimpleFilter
 from gazelle_ros.msgs import geometry_msgs, sensor_msgs, tf2_msgs

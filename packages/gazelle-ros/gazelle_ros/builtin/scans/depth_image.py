@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from gazelle_ros.base.tuned_fields import tunable
 from gazelle_ros.builtin.arguments import run_node
 from gazelle_ros.builtin.images.conversion import (
     TRANSPORT_PARAMETERS,
@@ -16,7 +17,7 @@ from gazelle_ros.builtin.images.conversion import (
 )
 from gazelle_ros.builtin.images.depth.metric import depths_of
 from gazelle_ros.builtin.parameters import settings_of
-from gazelle_ros.builtin.tuned_settings import TunedSettings, tunable
+from gazelle_ros.builtin.tuned_settings import TunedSettings
 from gazelle_ros.msgs import sensor_msgs, std_msgs
 from gazelle_ros.node import Node
 

@@ -10,8 +10,8 @@ from typing import Any, ClassVar
 import numpy as np
 
 from gazelle_ros.base.errors import RosError
+from gazelle_ros.base.tuned_fields import tunable
 from gazelle_ros.builtin.scans.filters.beams import BeamScan
-from gazelle_ros.builtin.tuned_settings import tunable
 from gazelle_ros.clock import SECOND
 
 _LOG = logging.getLogger("gazelle.ros.scans")

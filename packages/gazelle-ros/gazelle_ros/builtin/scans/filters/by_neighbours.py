@@ -9,8 +9,8 @@ from typing import ClassVar
 import numpy as np
 
 from gazelle_ros.base.array_types import Bools, Floats
+from gazelle_ros.base.tuned_fields import tunable
 from gazelle_ros.builtin.scans.filters.beams import BeamScan
-from gazelle_ros.builtin.tuned_settings import tunable
 
 _DISTANCE = 0
 

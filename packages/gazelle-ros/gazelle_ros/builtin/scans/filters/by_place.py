@@ -10,8 +10,8 @@ import numpy as np
 
 from gazelle_ros.base.array_types import Bools, Floats
 from gazelle_ros.base.errors import RosError
+from gazelle_ros.base.tuned_fields import tunable
 from gazelle_ros.builtin.scans.filters.beams import BeamScan
-from gazelle_ros.builtin.tuned_settings import tunable
 
 _ROBOT = "base_link"
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from gazelle_ros.base.tuned_fields import tunable
 from gazelle_ros.builtin.scans.filters.beams import BeamScan
-from gazelle_ros.builtin.tuned_settings import tunable
 
 _GREAT = 100000.0
 _SHORT = 0.01

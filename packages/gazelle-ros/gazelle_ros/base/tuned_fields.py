@@ -1,0 +1,54 @@
+"""Fields of a dataclass of settings that dynamic_reconfigure changes, with their limits."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
+from typing import Any
+
+
+def tunable(default: Any, least: Any = "", most: Any = "", description: str = "") -> Any:
+    """Return a field of a dataclass that dynamic_reconfigure may change.
+
+    Args:
+        default: Its type is that of all values: bool, int, str or float.
+        least: Smallest value, of a number.
+        most: Largest value, of a number.
+        description: For people.
+    """
+    if isinstance(default, bool):
+        least, most = False, True
+    return field(default=default, metadata={"tuned": (least, most, description)})
+
+
+@dataclass(frozen=True, slots=True)
+class TunedSetting:
+    """A setting that can be changed.
+
+    Attributes:
+        name: Of the parameter.
+        default: Its type is that of all values.
+        least: Smallest value.
+        most: Largest value.
+        description: For people.
+    """
+
+    name: str
+    default: Any
+    least: Any
+    most: Any
+    description: str
+
+    def clamp(self, value: Any) -> Any:
+        """Return the nearest allowed value."""
+        kind = type(self.default)
+        return kind(value if kind in (bool, str) else min(max(value, self.least), self.most))
+
+
+def tuned_fields(settings: Any) -> Mapping[str, TunedSetting]:
+    """Return the fields of a dataclass that are `tunable`, by name."""
+    return {
+        each.name: TunedSetting(each.name, each.default, *each.metadata["tuned"])
+        for each in fields(settings)
+        if "tuned" in each.metadata
+    }
