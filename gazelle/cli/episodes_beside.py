@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 import time
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 from gazelle.cli.viewing import simulated
@@ -18,10 +19,15 @@ _WAIT = 0.1  # until somebody may have opened the page [s]
 _AT_END = 1.0  # for which the last moment of an episode stays on the page [s]
 
 
+class _OtherEpisode(Exception):  # noqa: N818  nothing is wrong
+    """Another episode was chosen while one is played."""
+
+
 def show_episodes(result: Evaluation, port: int) -> None:
     """Play the episodes of an evaluation one by one on a page, failures first.
 
-    Each is played in real time, and begins when somebody looks.
+    Each is played in real time, and begins when somebody looks. Users choose others on the page;
+    after the last one it waits for that until the page is closed.
 
     Raises:
         TaskError: The task has no simulation, or workers played its episodes.
@@ -30,7 +36,7 @@ def show_episodes(result: Evaluation, port: int) -> None:
     from gazelle.training.rerun import Rerun, worst_first
     from gazelle.viewer.episodes_page import EpisodesPage
 
-    records = worst_first(result)
+    records = [record for record in worst_first(result) if record.place is not None]
     with Rerun(result) as rerun:
         owner = simulated(rerun.env)
         if owner is None:
@@ -45,19 +51,20 @@ def show_episodes(result: Evaluation, port: int) -> None:
             found: Floats | None = getattr(owner, "goal_places", None)
             return found
 
-        with EpisodesPage(owner.simulation, goals, port) as page:
+        titles = [f"{number}: {_brief(record)}" for number, record in enumerate(records, 1)]
+        with EpisodesPage(owner.simulation, goals, port, titles) as page:
             sys.stdout.write(f"the episodes begin when the page is open\nview {page.url}\n")
             sys.stdout.flush()
             pace = _EpisodePace(page, rerun.period)
-            for number, record in enumerate(records, 1):
-                if record.place is None:
-                    continue
-                text = describe(record, rerun.period)
-                page.show(
-                    record.place.copy * nworld // result.copies,
-                    f"{number} of {len(records)}: {text}",
-                )
-                rerun.play(record, pace.wait)
+            number: int | None = 0
+            while number is not None:
+                record = records[number]
+                copy = 0 if record.place is None else record.place.copy
+                text = f"{number + 1} of {len(records)}: {describe(record, rerun.period)}"
+                page.show(copy * nworld // result.copies, number, text)
+                with suppress(_OtherEpisode):
+                    rerun.play(record, pace.wait)
+                number = pace.following(number, len(records))
 
 
 def describe(record: EpisodeRecord, period: float) -> str:
@@ -68,19 +75,39 @@ def describe(record: EpisodeRecord, period: float) -> str:
     )
 
 
+def _brief(record: EpisodeRecord) -> str:
+    return f"{record.outcome}, {record.length} steps"
+
+
 class _EpisodePace:
-    """Real time, which stands while nobody looks at the page."""
+    """Real time, which stands while nobody looks at the page; ended by the choice of an episode."""
 
     def __init__(self, page: Any, period: float) -> None:
         self._page, self._period = page, period
         self._due = 0.0
 
     def wait(self, left: int) -> None:
-        """Wait for the time of the next step; longer before the last of an episode."""
+        """Wait for the time of the next step; longer before the last of an episode.
+
+        Raises:
+            _OtherEpisode: A user has chosen another one.
+        """
         while not self._page.watched:
             time.sleep(_WAIT)
+        if self._page.episodes.waiting:
+            raise _OtherEpisode
         now = time.monotonic()
         time.sleep(max(0.0, self._due - now))
         if left == 1:
             time.sleep(_AT_END)
         self._due = max(self._due, now) + self._period
+
+    def following(self, number: int, count: int) -> int | None:
+        """Return the number of the next episode; None where the page was closed after the last."""
+        chosen: int | None = self._page.episodes.take_choice()
+        if chosen is None and number + 1 < count:
+            return number + 1
+        while chosen is None and self._page.watched:
+            time.sleep(_WAIT)
+            chosen = self._page.episodes.take_choice()
+        return chosen

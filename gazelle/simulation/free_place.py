@@ -69,6 +69,12 @@ def spawn_where_free(
     Raises:
         Error: The model cannot be simulated.
     """
+    with simulation.lock:  # contacts are those of a moment, also where another thread steps
+        return _spawn_where_free(simulation, model, pose)
+
+
+def _spawn_where_free(simulation: Simulation, model: Model, pose: Pose | None) -> SpawnedModel:
+    """Spawn a model; the caller holds the lock."""
     robot = spawn_numbered(simulation, model, pose)
     if not _penetrates(simulation, robot):
         return SpawnedModel(robot)

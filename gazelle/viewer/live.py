@@ -36,6 +36,7 @@ from gazelle.viewer.page.run_controls import RunControls
 from gazelle.viewer.page.selection_box import SelectionBox
 from gazelle.viewer.page.server import PageServer
 from gazelle.viewer.page.speed_plots import SpeedPlots
+from gazelle.viewer.page.theme import ThemeSwitch
 from gazelle.viewer.page.time_log import TimeLog
 from gazelle.viewer.page.viewpoints import AROUND, Viewpoints, overview
 from gazelle.viewer.page.world_layer import LOOKS, ShapeLayer
@@ -162,9 +163,9 @@ class LiveView(Closeable):
             steering: list[PageLayer] = []
             if not only_looking:
                 steering = [
-                    InsertTools(context, self._server),
                     DriveControls(context, self._server),
                     JointSliders(context),
+                    InsertTools(context, self._server),
                 ]
             left = page.gui.add_panel()
             with left.add_tab("World"):
@@ -226,6 +227,7 @@ class LiveView(Closeable):
                 box = gui.add_checkbox(label, initial_value=layer.shown)
                 box.on_update(_switch(layer))
             shadows = gui.add_checkbox("Shadows", initial_value=True)
+            ThemeSwitch(self._server)
 
         def dress() -> None:
             self._shapes.look = surfaces.value

@@ -1,5 +1,8 @@
 """`gazelle eval --view`: the episodes of an evaluation on a page, failures first."""
 
+import threading
+from contextlib import suppress
+
 import numpy as np
 import pytest
 
@@ -10,6 +13,8 @@ from gazelle.cli import episodes_beside
 from gazelle.cli.main import main
 from gazelle.training import Actor, evaluate
 from gazelle.viewer.episodes_page import EpisodesPage
+from tests.ros.graph import until
+from tests.viewer.browser import opened
 
 
 @pytest.fixture
@@ -21,24 +26,34 @@ def seen(monkeypatch):
     def noted(pace, left):
         if left == 1:
             pace._page._view._picture()
-            view, text = pace._page._view, pace._page._panel._shown.content
+            view, text = pace._page._view, pace._page.episodes._shown.content
             goals = view._optional["Task goals"]._marks.batched_positions
             shown.append((int(view._context.worlds[0]), text, goals[:, :2].copy()))
         wait(pace, left)
 
     monkeypatch.setattr(episodes_beside._EpisodePace, "wait", noted)
     monkeypatch.setattr(EpisodesPage, "watched", True)
+    monkeypatch.setattr(  # nobody is to be waited for after the last
+        episodes_beside._EpisodePace,
+        "following",
+        lambda _, number, count: number + 1 if number + 1 < count else None,
+    )
     monkeypatch.setattr(episodes_beside.time, "sleep", lambda _: None)
     return shown
 
 
-def test_episodes_are_shown_one_by_one_failures_first(seen, capsys):
-    task = "TurtleBot3Stage1"
-    size = 26
+def failing(episodes, copies):
+    """Return the evaluation of a policy that drives straight on."""
     ahead = np.zeros(5, np.float32)
     ahead[2] = 1.0
-    actor = Actor((np.zeros((size, 5), np.float32),), (ahead,), "tanh", "categorical")
-    found = evaluate(actor, task=task, episodes=4, num_envs=2, engine="planar")
+    actor = Actor((np.zeros((26, 5), np.float32),), (ahead,), "tanh", "categorical")
+    return evaluate(
+        actor, task="TurtleBot3Stage1", episodes=episodes, num_envs=copies, engine="planar"
+    )
+
+
+def test_episodes_are_shown_one_by_one_failures_first(seen, capsys):
+    found = failing(4, 2)
     episodes_beside.show_episodes(found, 0)
     order = sorted(found.records, key=lambda record: not record.failed)
     for number, (record, (world, text, marks)) in enumerate(zip(order, seen, strict=True), 1):
@@ -52,3 +67,39 @@ def test_episodes_are_shown_one_by_one_failures_first(seen, capsys):
 def test_a_view_is_of_this_process_and_not_for_programs(other, capsys):
     assert main(["eval", "RUN", "--view", *other]) == 2
     assert "leave out --json, --workers and --ray" in capsys.readouterr().err
+
+
+@pytest.mark.long
+def test_a_policy_is_watched_as_it_fails(capsys, monkeypatch):
+
+    found = failing(3, 1)
+    said = []
+
+    def play():
+        with suppress(InterruptedError):
+            episodes_beside.show_episodes(found, 0)
+
+    thread = threading.Thread(target=play, daemon=True)
+    thread.start()
+
+    def told():
+        said.append(capsys.readouterr().out)
+        return "view http" in "".join(said)
+
+    until(told)
+    url = "".join(said).split()[-1]
+    with opened(url, (1400, 900)) as page:
+        page.get_by_text("1 of 3: collision after").wait_for()
+        page.get_by_role("button", name="next", exact=True).click()
+        page.get_by_text("2 of 3: collision after").wait_for()
+        page.get_by_role("combobox", name="Episode").click()
+        page.get_by_role("option", name="3: collision").click()
+        page.get_by_text("3 of 3: collision after").wait_for()
+        page.get_by_role("button", name="previous", exact=True).click()
+        page.get_by_text("2 of 3: collision after").wait_for()
+
+    def interrupt(_page):
+        raise InterruptedError
+
+    monkeypatch.setattr(EpisodesPage, "watched", property(interrupt))
+    thread.join()

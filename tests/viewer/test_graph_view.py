@@ -101,10 +101,10 @@ def test_robots_stand_where_tf_says(node, view):
     assert next(iter(view._displays.robots.values())) is not robot
     node.set_param("/robot_description", "<robot")
     view._discover()
-    assert "robot_description" in view._status.content
+    assert "robot_description" in view._faults.content
     node.delete_param("/robot_description")
     view._discover()
-    assert "robot_description" not in view._status.content
+    assert "robot_description" not in view._faults.content
 
 
 def test_a_robot_that_tf_does_not_know_is_named(node, view):
@@ -112,11 +112,11 @@ def test_a_robot_that_tf_does_not_know_is_named(node, view):
     view._picture()
     view._discover()
     expected = "/robot_description: no transform from any of its links to map"
-    assert expected in view._status.content
+    assert expected in view._faults.content
     put_frames(node, view, tip=(1.0, 2.0))
     view._picture()
     view._discover()
-    assert expected not in view._status.content
+    assert expected not in view._faults.content
 
 
 def test_links_that_tf_does_not_know_go_along(node, view):
@@ -139,13 +139,13 @@ def test_scans_clouds_maps_paths_and_poses_are_drawn_in_their_frames(node, view)
     assert view._displays.topics["/scan"].anchor.visible
     assert not view._displays.topics["/goal"].anchor.visible
     view._discover()
-    assert "/goal: no transform from nowhere to map" in view._status.content
-    assert "/scan: no transform" not in view._status.content
+    assert "/goal: no transform from nowhere to map" in view._faults.content
+    assert "/scan: no transform" not in view._faults.content
     put_frames(node, view, nowhere=(0.0, 1.0))
     view._picture()
     view._discover()
     assert view._displays.topics["/goal"].anchor.visible
-    assert "/goal: no transform" not in view._status.content
+    assert "/goal: no transform" not in view._faults.content
 
     grid = on_frame("nav_msgs/OccupancyGrid", "map", data=[0, 100, -1, 0, 50, 0])
     grid.info.width, grid.info.height, grid.info.resolution = 3, 2, 0.5
@@ -378,7 +378,7 @@ def test_what_is_wrong_with_a_plan_is_said(node, view, names, row, words):
     view._discover()
     view._picture()
     view._discover()
-    assert words in view._status.content
+    assert words in view._faults.content
 
 
 def test_a_bad_message_does_not_end_the_view(node, view, monkeypatch):
@@ -387,8 +387,8 @@ def test_a_bad_message_does_not_end_the_view(node, view, monkeypatch):
     bad = message("sensor_msgs/Image", encoding="nonsense", height=1, width=1, step=1, data=b"x")
     node.advertise("/image", type(bad), 1, latch=True).publish(bad)
     put_frames(node, view, base_link=(1.0, 2.0))
-    until(lambda: "⚠ /image: " in view._status.content)
-    until(lambda: "fixed frame **map**" in view._status.content)
+    until(lambda: "⚠ /image: " in view._faults.content)
+    until(lambda: "in **map**" in view._status.content)
     assert view._thread.is_alive()
 
 

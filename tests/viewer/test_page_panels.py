@@ -60,34 +60,6 @@ def test_each_copy_of_a_world_is_changed_by_itself(shown):
     until(lambda: simulation.robots["box"].position[:, 2].max() < 0.6)
 
 
-def test_a_box_without_friction_slides_away_when_it_is_pushed(shown):
-    simulation, _, page = shown
-    select(page, "box")
-    page.locator('[data-kind="link"][data-name="box::l"]').click()
-    page.locator('[data-kind="collision"]').click()
-    field = page.get_by_label("Friction", exact=True)
-    field.click(click_count=3)
-    page.keyboard.type("0.05")
-    field.press("Enter")
-    until(lambda: simulation.parameters.friction["box::l::c"].min() == pytest.approx(0.05))
-    changed = int(np.argmin(simulation.parameters.friction["box::l::c"]))
-    page.get_by_label("Force [N]").first.click(click_count=3)
-    page.keyboard.type("300")
-    page.keyboard.press("Enter")
-    before = boxes(page)
-    page.get_by_role("button", name="push", exact=True).click()
-
-    def slid():
-        simulation.run(0.1)
-        return simulation.robots["box"].position[changed, 0] > 0.3
-
-    until(slid)
-    moved = simulation.robots["box"].position[:, 0]
-    assert np.abs(np.delete(moved, changed)).max() < 0.05
-    until(lambda: len(boxes(page)) < 4 or np.abs(boxes(page) - before).max() > 10)
-    simulation.reset()
-
-
 def test_a_joint_follows_its_slider(shown):
     simulation, _, page = shown
     select(page, "lamp")

@@ -17,6 +17,7 @@ from gazelle.viewer.graph.layouts import LayoutControls
 from gazelle.viewer.graph.panels import PanelSet
 from gazelle.viewer.graph.tools import PointerTools
 from gazelle.viewer.page.server import PageServer
+from gazelle.viewer.page.theme import ThemeSwitch
 from gazelle_ros import Node, WallClock
 from gazelle_ros.base.closing import Closeable
 from gazelle_ros.errors import ApiError, UnreachableError
@@ -26,6 +27,7 @@ from gazelle_ros.tf import take_transforms
 _AUTOMATIC = "automatic"
 _LOOK = 1.0  # between two looks at what topics there are [s]
 _PERIOD = 0.05
+_GRID = (128, 128, 128)  # seen on white and on black
 _SHARE = 0.2  # of a core that pictures take at most: dearer ones come less often
 _log = logging.getLogger("gazelle.viewer")
 
@@ -113,7 +115,9 @@ class GraphView(Closeable):
         gui.main_panel.dock_right()
         context.server.light_up()
         context.page.initial_camera.position = (-4.0, -5.0, 5.0)
-        context.scene.add_grid("/grid", 20.0, 20.0, position=(0.0, 0.0, -0.01))
+        context.scene.add_grid(
+            "/grid", 20.0, 20.0, cell_color=_GRID, section_color=_GRID, position=(0.0, 0.0, -0.01)
+        )
         self._status: Any = gui.add_markdown("waiting for the graph ...")
         self._frame: Any = gui.add_dropdown("Fixed frame", (context.requested_frame or _AUTOMATIC,))
         context.on_user_change(self._frame, self._choose_frame)
@@ -123,9 +127,11 @@ class GraphView(Closeable):
             gui.add_button("Fit view"), lambda: self._fitter.fit(self._displays.extent)
         )
         self._panels = PanelSet(context)
+        self._faults: Any = gui.add_markdown("")
         self._displays = DisplayList(context)
         self._interactive = InteractiveServers(context)
         self._layouts = LayoutControls(context, self._displays, self._panels, self._fitter)
+        ThemeSwitch(context.server)
 
     def _follow(self) -> None:
         """Draw new messages while the page is open."""
@@ -146,15 +152,11 @@ class GraphView(Closeable):
                     draw_at = time.monotonic() + (time.thread_time() - spent) / _SHARE
                 self._panels.refresh()
             except (ApiError, UnreachableError) as error:
-                self._set_status(f"the master does not answer: {error}")
+                _show(self._status, f"the master does not answer: {error}")
                 self._stop.wait(_LOOK)
             except Exception:  # noqa: BLE001  one failure does not end the view
                 _log.exception("a picture of the graph failed")
             self._stop.wait(_PERIOD)
-
-    def _set_status(self, text: str) -> None:
-        if self._status.content != text:
-            self._status.content = text
 
     def _discover(self) -> None:
         """Find what is new on the graph, and report what is wrong."""
@@ -164,11 +166,11 @@ class GraphView(Closeable):
         self._offer_frames()
         frames = context.tree.names()
         counts = (
-            f"{len(frames)} frames, {len(displays.topics)} topics, {len(displays.robots)} robots"
+            f"{len(frames)} frames, {len(displays.topics)} topics, robots: {len(displays.robots)}"
         )
         faults = [*displays.faults, *self._interactive.faults]
-        lines = [f"fixed frame **{context.fixed}** &nbsp; {counts}"]
-        self._set_status("\n\n".join([*lines, *(f"⚠ {fault}" for fault in faults)]))
+        _show(self._status, f"in **{context.fixed}**: {counts}")
+        _show(self._faults, "\n\n".join(f"⚠ {fault}" for fault in faults))
 
     def _offer_frames(self) -> None:
         """List all frames in the choice of the fixed frame."""
@@ -191,3 +193,9 @@ class GraphView(Closeable):
         extent = displays.extent
         if extent is not None:
             self._fitter.follow(extent, displays.shown_count)
+
+
+def _show(shown: Any, text: str) -> None:
+    """Show a text, if it changed."""
+    if shown.content != text:
+        shown.content = text

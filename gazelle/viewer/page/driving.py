@@ -11,11 +11,12 @@ from gazelle.simulation.ports import TwistInput
 from gazelle.viewer.page.context import PageContext
 from gazelle.viewer.page.server import PageServer
 
+_HINT = "Select a robot with wheels or rotors."
 _LATE = 0.6  # after which a robot stands still when nothing is received [s]
 
 _STICK = """
 <div id="gazelle-stick" tabindex="0" title="drag, or click and use the arrow keys or W A S D"
- style="width:9em;height:9em;margin:0.5em auto;border-radius:50%;background:#dde3ea;position:relative;
+ style="width:9em;height:9em;margin:0.5em auto;border-radius:50%;background:var(--mantine-color-default-border);position:relative;
  outline-offset:3px;touch-action:none;cursor:grab"
  onpointerdown="this.setPointerCapture(event.pointerId);this.held=1;this.onpointermove(event)"
  onpointermove="if(!this.held)return;const b=this.getBoundingClientRect(),r=b.width/2;
@@ -26,8 +27,8 @@ _STICK = """
   event.stopPropagation();this.keys.add(k);this.press()"
  onkeyup="this.keys.delete(event.key.toLowerCase());this.press()"
  onblur="this.keys.clear();this.press()">
- <div style="width:2.4em;height:2.4em;border-radius:50%;background:#37a;position:absolute;left:3.3em;top:3.3em;
-  pointer-events:none"></div></div>
+ <div style="width:2.4em;height:2.4em;border-radius:50%;background:var(--mantine-primary-color-filled);
+  position:absolute;left:3.3em;top:3.3em;pointer-events:none"></div></div>
 <img alt="" style="display:none" src="data:," onerror="const s=document.getElementById('gazelle-stick');
  if(s.go)return;s.keys=new Set();s.v=[0,0];
  s.ways={arrowup:[1,0],w:[1,0],arrowdown:[-1,0],s:[-1,0],arrowleft:[0,1],a:[0,1],arrowright:[0,-1],d:[0,-1]};
@@ -56,8 +57,8 @@ class DriveControls:
         self._lock = threading.Lock()
         self._driven: tuple[TwistInput, float] | None = None
         gui = context.gui
-        self._folder = gui.add_folder("Drive", visible=False)
-        with self._folder:
+        with gui.add_folder("Drive"):
+            self._robot = gui.add_markdown(_HINT)
             self._linear = gui.add_number("Speed [m/s]", 0.2, min=0.0, max=100.0, step=0.05)
             self._angular = gui.add_number("Turn [rad/s]", 1.0, min=0.0, max=100.0, step=0.1)
             gui.add_html(_STICK)
@@ -77,8 +78,10 @@ class DriveControls:
         """Do nothing: there is nothing to show."""
 
     def renew(self) -> None:
-        """Show or hide the controls, after models changed."""
-        self._folder.visible = self._port() is not None
+        """Show which robot is driven, after models changed."""
+        robot = _HINT if self._port() is None else f"**{self._context.selected}**"
+        if self._robot.content != robot:
+            self._robot.content = robot
 
     def _port(self) -> TwistInput | None:
         robot = self._context.simulation.robots.get(self._context.selected)

@@ -27,7 +27,9 @@ class JointSliders:
 
     def __init__(self, context: PageContext) -> None:
         self._context = context
-        self._folder = context.gui.add_folder("Joints", expand_by_default=False, visible=False)
+        self._folder = context.gui.add_folder("Joints", expand_by_default=False)
+        with self._folder:
+            self._hint = context.gui.add_markdown("Select a model with joints.")
         self._pool: list[LiveInput] = []
         self._sliders: dict[str, LiveInput] = {}
         self._model = ""
@@ -65,7 +67,7 @@ class JointSliders:
         robot = context.simulation.robots.get(context.selected)
         self._model = context.selected
         joints = [] if robot is None else [j for j in robot.joints.items() if j[1].axes == 1]
-        self._folder.visible = bool(joints)
+        self._hint.visible = not joints
         names = [name for name, _ in joints[:_MOST]]
         while len(self._pool) < len(names):
             self._pool.append(self._slider())

@@ -31,6 +31,7 @@ HOST = "127.0.0.1"
 GUESTS = 8
 """Pages that are served at once."""
 
+_LIGHT_BRAND, _DARK_BRAND = (58, 110, 165), (76, 138, 204)
 _NAMES = frozenset([HOST, "localhost"])
 _OPENING = threading.Lock()
 _SAFE = {
@@ -104,6 +105,15 @@ class PageServer(Closeable):
             "/sky", sky_color=(255, 255, 255), ground_color=(150, 150, 150), intensity=1.2
         )
 
+    def use_theme(self, *, dark: bool) -> None:
+        """Show every page in the dark or the light theme."""
+        self.viser.gui.configure_theme(
+            show_logo=False,
+            show_share_button=False,
+            dark_mode=dark,
+            brand_color=_DARK_BRAND if dark else _LIGHT_BRAND,
+        )
+
     def wake(self) -> None:
         """Wake a ``wait``."""
         self._changed.set()
@@ -141,7 +151,7 @@ class PageServer(Closeable):
 
         for message in (_messages.ShareUrlRequest, _messages.ShareUrlDisconnect):
             self.viser._websock_server.unregister_handler(message)  # noqa: SLF001  there is no switch
-        self.viser.gui.configure_theme(show_logo=False, show_share_button=False)
+        self.use_theme(dark=False)
 
     def _admit(
         self,

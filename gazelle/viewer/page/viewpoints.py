@@ -24,7 +24,7 @@ DIRECTIONS = {
 
 _BUTTON = (
     '<button type="button" style="flex:1;font:inherit;font-size:0.9em;padding:0.15em;cursor:pointer;background:none;'
-    'border:1px solid var(--mantine-primary-color-filled);color:var(--mantine-primary-color-filled)"'
+    'border:1px solid var(--mantine-color-custom-outline);color:var(--mantine-color-custom-outline)"'
 )
 _SAVING = f"""
 <div id="gazelle-saving" style="display:flex;gap:0.5em;align-items:center;margin:0 0.75em 0.5em;font-size:0.8em">

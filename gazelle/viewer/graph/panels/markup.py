@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from html import escape
 
 _BORDER = "border-bottom:1px solid var(--mantine-color-default-border)"
 _CELL = f"padding:2px 6px;text-align:left;vertical-align:top;{_BORDER}"
-_WRAP, _WHOLE = "overflow-wrap:anywhere", "white-space:nowrap"
+_WRAP, _WHOLE = "overflow-wrap:break-word", "white-space:nowrap"
 _BOX = "padding:0 0.7em 0.5em;font-size:0.8em;overflow:auto"
+
+_BREAKS, _BREAK = re.compile(r"[/_]"), r"\g<0><wbr>"
+"""Names of topics and types may be broken behind these."""
 
 Row = tuple[Sequence[str], str]
 """Texts of the cells, and the CSS colour of the row; "" for the page's."""
@@ -48,7 +52,7 @@ def framed(markup: str, height_px: int = 480) -> str:
 def _line(cells: Sequence[str], styles: Sequence[str], color: str) -> str:
     tone = f' style="color:{color}"' if color else ""
     inner = "".join(
-        f'<td style="{style}">{escape(each)}</td>'
+        f'<td style="{style}">{_BREAKS.sub(_BREAK, escape(each))}</td>'
         for each, style in zip(cells, styles, strict=True)
     )
     return f"<tr{tone}>{inner}</tr>"
