@@ -1,5 +1,6 @@
 """Panels of the page of a graph in a real browser: what rqt's plugins do, by clicking."""
 
+import logging
 import re
 from contextlib import contextmanager
 from types import SimpleNamespace
@@ -231,6 +232,48 @@ def test_a_bag_is_played(graph, tmp_path):
         graph.wait_text("of 1.9 s, running")
         until(lambda: got and got[-1].data == 19)
         assert min(each.data for each in got) >= 10
+
+
+def test_a_bag_is_recorded(graph, tmp_path):
+    file = tmp_path / "talk.bag"
+    with opened_panel(graph, "Bag player") as panel:
+        graph.fill("Topics", "/talk /more")
+        graph.fill("File", str(file))
+        until(lambda: panel._recording.inputs["recorded"].value == str(file))
+        graph.click("Record")
+        graph.wait_text("recording for")
+        graph.say("/talk", "std_msgs/Int32", data=7)
+        graph.say("/more", "std_msgs/Int32", data=8)
+        until(lambda: sum(panel._recording._recorder._counts.values()) == 2)
+        graph.click("End")
+        graph.wait_text(f"recorded in {file}")
+    with Bag(str(file)) as bag:
+        found = sorted((topic, each.data) for topic, each, _ in bag.read_messages())
+    assert found == [("/more", 8), ("/talk", 7)]
+
+
+def test_levels_of_loggers_are_changed(graph):
+    logger = logging.getLogger("gazelle.viewer")
+    before = logger.level
+    try:
+        with opened_panel(graph, "Logger levels"):
+            graph.choose("Node", "/rosout")
+            graph.choose("Logger", "gazelle.viewer")
+            graph.choose("Level", "DEBUG")
+            until(lambda: logger.level == logging.DEBUG)
+    finally:
+        logger.setLevel(before)
+
+
+def test_images_are_viewed(graph):
+    with opened_panel(graph, "Image view") as panel:
+        row = bytes([250, 10, 20] * 8)
+        graph.say("/camera", "sensor_msgs/Image", height=4, width=8, encoding="rgb8",
+                  step=24, data=row * 4)  # fmt: skip
+        graph.choose("Topic", "/camera")
+        graph.wait_text("8 x 4, rgb8")
+        graph.page.locator("img[src^='data:image'], img[src^='blob:']").first.wait_for()
+        assert panel._image.image[0, 0].tolist() == [250, 10, 20]
 
 
 def test_controllers_are_started_and_stopped(graph):

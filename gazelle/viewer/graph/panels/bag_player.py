@@ -8,6 +8,7 @@ from typing import Any
 
 from gazelle.errors import Error
 from gazelle.viewer.graph.context import GraphContext
+from gazelle.viewer.graph.panels.bag_recording import BagRecording
 from gazelle.viewer.graph.panels.markup import table
 from gazelle.viewer.graph.panels.panel import GraphPanel
 from gazelle_ros.bags import Bag
@@ -16,7 +17,7 @@ from gazelle_ros.base.path_texts import existing_file
 
 
 class BagPlayerPanel(GraphPanel):
-    """Publishes what a bag of this machine holds.
+    """Publishes what a bag of this machine holds, and records others.
 
     Args:
         context: Of the page.
@@ -47,7 +48,8 @@ class BagPlayerPanel(GraphPanel):
         self._text: Any = gui.add_markdown("")
         self._topics: Any = gui.add_html("")
         context.on_user_change(self._file, self._list)
-        self.inputs = {
+        self._recording = BagRecording(context)
+        self.inputs = self._recording.inputs | {
             "file": self._file, "rate": self._rate, "start": self._start, "loop": self._loop,
             "clock": self._clock,
         }  # fmt: skip
@@ -59,6 +61,7 @@ class BagPlayerPanel(GraphPanel):
 
     def refresh(self) -> None:
         """Show how far it is."""
+        self._recording.refresh()
         playing = self._thread is not None and self._thread.is_alive()
         text = (
             f"{self._passed:.1f} of {self._length:.1f} s, {self._state.lower()}" if playing else ""
@@ -72,7 +75,8 @@ class BagPlayerPanel(GraphPanel):
         self._end()
 
     def close(self) -> None:
-        """Stop playing."""
+        """Stop playing and recording."""
+        self._recording.end()
         self._end()
 
     def _list(self) -> None:

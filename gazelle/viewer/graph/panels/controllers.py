@@ -90,8 +90,4 @@ class ControllersPanel(GraphPanel):
 
     def _call(self, service: str, kind: str, **fields: Any) -> Any:
         definition = getattr(controller_manager_msgs.srv, kind)
-        client = self.context.node.client(f"{self._manager.value}/{service}", definition)
-        try:
-            return client.call(definition._request_class(**fields), timeout=5.0)
-        finally:
-            client.close()
+        return self.call(f"{self._manager.value}/{service}", definition, **fields)

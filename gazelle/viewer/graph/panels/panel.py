@@ -8,6 +8,8 @@ from typing import Any, ClassVar
 
 from gazelle.viewer.graph.context import GraphContext
 
+_PATIENCE_S = 5.0  # of a call of a service
+
 
 class GraphPanel(ABC):
     """A part of the page that is opened and closed; it costs nothing while it is closed.
@@ -43,6 +45,18 @@ class GraphPanel(ABC):
 
     def close(self) -> None:  # noqa: B027  most panels need none
         """Leave the graph."""
+
+    def call(self, service: str, definition: Any, **fields: Any) -> Any:
+        """Call a service of the graph; returns the response.
+
+        Raises:
+            Error: There is no such service, or the call failed.
+        """
+        client = self.context.node.client(service, definition)
+        try:
+            return client.call(definition._request_class(**fields), timeout=_PATIENCE_S)
+        finally:
+            client.close()
 
     def use(self, arguments: Sequence[str]) -> None:  # noqa: B027  most panels need none
         """Follow the command line of the rqt program that the panel stands for."""

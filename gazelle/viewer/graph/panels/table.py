@@ -5,8 +5,10 @@ from __future__ import annotations
 from gazelle.viewer.graph.panels.bag_player import BagPlayerPanel
 from gazelle.viewer.graph.panels.console import ConsolePanel
 from gazelle.viewer.graph.panels.controllers import ControllersPanel
+from gazelle.viewer.graph.panels.image_view import ImageViewPanel
 from gazelle.viewer.graph.panels.joint_sliders import JointSlidersPanel
 from gazelle.viewer.graph.panels.joint_trajectory import JointTrajectoryPanel
+from gazelle.viewer.graph.panels.logger_levels import LoggerLevelPanel
 from gazelle.viewer.graph.panels.node_graph import NodeGraphPanel
 from gazelle.viewer.graph.panels.panel import GraphPanel
 from gazelle.viewer.graph.panels.plot import PlotPanel
@@ -23,8 +25,10 @@ PANELS: dict[str, type[GraphPanel]] = {
         BagPlayerPanel,
         ConsolePanel,
         ControllersPanel,
+        ImageViewPanel,
         JointSlidersPanel,
         JointTrajectoryPanel,
+        LoggerLevelPanel,
         NodeGraphPanel,
         PlotPanel,
         PublisherPanel,
