@@ -6,7 +6,7 @@ import pytest
 pytest.importorskip("viser", reason="the extra 'web' is not installed")
 
 from tests.ros.graph import until
-from tests.viewer.graph_page import graph_page
+from tests.viewer.graph_page import graph_page, message
 
 pytestmark = pytest.mark.long
 
@@ -137,8 +137,32 @@ def test_points_are_published_and_distances_measured(graph):
     graph.choose("Tool", "Move camera")
 
 
+def test_displays_are_removed_and_added_by_hand(graph):
+    topics = graph.view._displays.topics
+    graph.say("/spot", "geometry_msgs/PointStamped", "map")
+    graph.page.get_by_text("/spot", exact=True).click()
+    graph.click("Remove")
+    until(lambda: "/spot" not in topics)
+    graph.page.get_by_text("Add", exact=True).click()
+    graph.choose("By topic", "/spot")
+    until(lambda: "/spot" in topics)
+    graph.choose("By type", "nav_msgs/Path")
+    graph.fill("Its topic", "/later")
+    graph.click("Add display")
+    graph.wait_text("/later: nobody publishes it")
+    poses = [message("geometry_msgs/PoseStamped") for _ in range(2)]
+    poses[1].pose.position.x = 1.0
+    graph.say("/later", "nav_msgs/Path", "map", poses=poses)
+    until(lambda: topics["/later"].drawing.part("path") is not None)
+    graph.page.get_by_text("Add", exact=True).click()
+
+
 def test_layouts_are_saved_and_loaded(graph):
     view = graph.view
+    topics = view._displays.topics
+    view._displays.remove("/spot")
+    view._displays.add("/never", "nav_msgs/Path")
+    until(lambda: "/never" in topics and "/spot" not in topics)
     scan = view._displays.topics["/scan"]
     scan.restyle((10, 200, 20), 0.1)
     graph.choose("Open panel", "Plot")
@@ -150,11 +174,15 @@ def test_layouts_are_saved_and_loaded(graph):
     graph.click("Save")
     until(lambda: view._layouts._files.names == ["my robot"])
     scan.restyle((10, 20, 250), 0.02)
+    view._displays.remove("/never")
+    view._displays.add("/spot", "geometry_msgs/PointStamped")
+    until(lambda: "/spot" in topics and "/never" not in topics)
     graph.choose("Fixed frame", "automatic")
     graph.click("Close")
     until(lambda: view._panels.titles == [])
     graph.choose("Load", "my robot")
     until(lambda: view._panels.titles == ["Plot"])
+    until(lambda: "/never" in topics and "/spot" not in topics)
     assert view._panels.panel("Plot").settings["fields"] == ["/speed/data"]
     assert view._context.requested_frame == "laser"
     assert (scan.drawing.style.color, scan.drawing.style.size) == ((10, 200, 20), 0.1)

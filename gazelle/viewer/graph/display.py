@@ -46,6 +46,7 @@ class TopicDisplay:
         context: Of the page.
         topic: Its name.
         kind: Its type.
+        remove: Called when a user wants it to be removed.
 
     Attributes:
         drawing: Its parts on the page.
@@ -55,7 +56,9 @@ class TopicDisplay:
         kind: Type of the messages.
     """
 
-    def __init__(self, context: GraphContext, topic: str, kind: str) -> None:
+    def __init__(
+        self, context: GraphContext, topic: str, kind: str, remove: Callable[[], None]
+    ) -> None:
         self._context, self.topic, self.kind = context, topic, kind
         self.frame, self.unplaced, self.shown = "", "", True
         self.arrivals = Arrivals()
@@ -71,7 +74,7 @@ class TopicDisplay:
         self.motion: MotionTopic | None = None
         if kind == MOTION:
             self.motion = MotionTopic(context.scene, f"{name}/plan", topic)
-        self._add_settings()
+        self._add_settings(remove)
         self._subscriber: Subscriber | None = None
         self.resume()
 
@@ -177,10 +180,10 @@ class TopicDisplay:
 
     @property
     def settings(self) -> dict[str, Any]:
-        """Switch, colour and size, for a saved layout."""
+        """Type, switch, colour and size, for a saved layout."""
         style = self.drawing.style
         color = None if style.color is None else list(style.color)
-        return {"shown": self.shown, "color": color, "size": style.size}
+        return {"type": self.kind, "shown": self.shown, "color": color, "size": style.size}
 
     def restore(self, settings: Mapping[str, Any]) -> None:
         """Take the settings of a saved layout, as far as they are there."""
@@ -222,7 +225,7 @@ class TopicDisplay:
             _log.exception("a message of %s was not drawn", self.topic)
             self._error = f"this message cannot be drawn: {error}"
 
-    def _add_settings(self) -> None:
+    def _add_settings(self, remove: Callable[[], None]) -> None:
         gui, style = self._context.gui, self.drawing.style
         self._folder: Any = gui.add_folder(self.topic, expand_by_default=False)
         self._color: Any = None
@@ -236,6 +239,7 @@ class TopicDisplay:
             if style.size is not None:
                 label = SIZE_LABELS[self.kind]
                 self._size = gui.add_number(label, style.size, min=0.001, step=0.001)
+            self._context.on_user_click(gui.add_button("Remove", color="gray"), remove)
         for control in (self._color, self._size):
             if control is not None:
                 self._context.on_user_change(control, partial(self._restyle_by_user, control))

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections import deque
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
 
 from gazelle.array_types import Floats
 from gazelle.errors import Error
+from gazelle.viewer.graph.adding import DisplayAdder
 from gazelle.viewer.graph.context import GraphContext
 from gazelle.viewer.graph.display import KINDS, TopicDisplay
 from gazelle.viewer.graph.frames import FrameAxes
 from gazelle.viewer.graph.robots import DescribedRobot
 
-_FRAMES = "frames"  # key of a layout; topics begin with a slash
+_FRAMES, _NEW = "frames", "new topics"  # keys of a layout; topics begin with a slash
 
 
 class DisplayList:
@@ -34,10 +36,18 @@ class DisplayList:
         self.robots = context.robots
         self._refused: dict[str, tuple[str, str]] = {}
         self._wanted: dict[str, Any] = {}
+        self._removed: set[str] = set()
+        self._requests: deque[Callable[[], None]] = deque()  # of users, for the page's thread
         self._count = 0
         self._folder = context.gui.add_folder("Displays")
         with self._folder:
             self._frames = FrameAxes(context)
+            self._new: Any = context.gui.add_checkbox(
+                "New topics",
+                initial_value=True,
+                hint="Shows each topic that begins to be published",
+            )
+            self._adder = DisplayAdder(context, KINDS, self.add)
 
     @property
     def faults(self) -> list[str]:
@@ -72,18 +82,36 @@ class DisplayList:
         return np.array([known[:, 0].min(axis=0), known[:, 1].max(axis=0)])
 
     @property
-    def settings(self) -> dict[str, dict[str, Any]]:
-        """Settings of the displays, for a saved layout."""
-        frames = {_FRAMES: {"shown": self._frames.box.value}}
-        return frames | {topic: each.settings for topic, each in self.topics.items()}
+    def settings(self) -> dict[str, dict[str, Any] | None]:
+        """Settings of the displays, for a saved layout; None for a topic whose display was removed."""
+        general = {_FRAMES: {"shown": self._frames.box.value}, _NEW: {"shown": self._new.value}}
+        removed = dict.fromkeys(sorted(self._removed))
+        return general | removed | {topic: each.settings for topic, each in self.topics.items()}
 
     def restore(self, settings: Mapping[str, Any]) -> None:
         """Take the settings of a saved layout, those of topics that are not there yet later."""
         self._wanted = dict(settings)
         frames = self._wanted.pop(_FRAMES, None)
         self._frames.box.value = isinstance(frames, dict) and frames.get("shown") is True
+        new = self._wanted.pop(_NEW, None)
+        self._new.value = not (isinstance(new, dict) and new.get("shown") is False)
+        self._removed = {topic for topic, each in self._wanted.items() if each is None}
         for topic in tuple(self.topics):
+            if topic in self._removed:
+                self.remove(topic)
             self._restore(topic)
+        for topic, each in tuple(self._wanted.items()):
+            kind = each.get("type") if isinstance(each, dict) else None
+            if kind in KINDS and topic not in self.topics:
+                self.add(topic, kind)
+
+    def add(self, topic: str, kind: str) -> None:
+        """Show a topic with the next picture, whether it is published or not; called by any thread."""
+        self._requests.append(lambda: self._add(topic, kind))
+
+    def remove(self, topic: str) -> None:
+        """Remove a display with the next picture, until it is added by hand."""
+        self._requests.append(lambda: self._remove(topic))
 
     def discover(self) -> None:
         """Show topics and robots that are new, and update every status."""
@@ -93,9 +121,14 @@ class DisplayList:
         others = {
             topic: len(nodes) for topic, nodes in published.items() if set(nodes) != {node.name}
         }
-        for topic in others:
-            if types.get(topic) in KINDS and topic not in self.topics:
+        for topic in others if self._new.value else ():
+            if types.get(topic) in KINDS and topic not in {*self.topics, *self._removed}:
                 self._add(topic, types[topic])
+        self._adder.offer({
+            topic: kind
+            for topic, kind in types.items()
+            if topic in others and kind in KINDS and topic not in self.topics
+        })  # fmt: skip
         described = [
             name for name in node.param_names() if name.rpartition("/")[2] == "robot_description"
         ]
@@ -119,6 +152,8 @@ class DisplayList:
 
     def draw(self) -> None:
         """Draw what is new, all at its place."""
+        while self._requests:
+            self._requests.popleft()()
         fixed = self._context.fixed
         for display in self.topics.values():
             display.draw()
@@ -129,9 +164,19 @@ class DisplayList:
             display.place(fixed, self.robots)
 
     def _add(self, topic: str, kind: str) -> None:
+        self._removed.discard(topic)
+        if topic in self.topics:
+            return
         with self._folder:
-            self.topics[topic] = TopicDisplay(self._context, topic, kind)
+            self.topics[topic] = TopicDisplay(
+                self._context, topic, kind, lambda: self.remove(topic)
+            )
         self._restore(topic)
+
+    def _remove(self, topic: str) -> None:
+        self._removed.add(topic)
+        if topic in self.topics:
+            self.topics.pop(topic).remove()
 
     def _restore(self, topic: str) -> None:
         wanted = self._wanted.pop(topic, None)
