@@ -12,9 +12,9 @@ from PIL import Image
 from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Picture
 from gazelle.description.pose import Vector3
+from gazelle.engines.world_rays import cast_in_world
 from gazelle.errors import EngineError, Error
 from gazelle.rendering import LiveScene, PinholeLens
-from gazelle.rotations import conjugate, rotate
 from gazelle.sensors import look_at
 from gazelle.simulation import Simulation
 from gazelle.simulation.inputs import one_world
@@ -111,13 +111,10 @@ class SceneCamera:
             return present
         offsets = np.array([present, *_candidate_offsets()])
         target = robot.placement(self._world).position[0] + self._target
-        place = engine.links[first.name].placement(self._world)
-        back = conjugate(place.quaternion[0])
         lengths = np.linalg.norm(offsets, axis=1)
-        origins = rotate(back, target + offsets - place.position[0])
-        directions = rotate(back, -offsets / lengths[:, None])
+        directions = -offsets / lengths[:, None]
         try:
-            hits = engine.links[first.name].cast_rays(origins, directions, self._world)
+            hits = cast_in_world(engine, first.name, target + offsets, directions, self._world)
         except EngineError:  # the plane has rays of one height only
             return present
         clear = (hits.distance[0] >= lengths - _NEAR) & ~hits.from_inside[0]

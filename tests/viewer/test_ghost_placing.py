@@ -97,6 +97,17 @@ def test_a_ghost_follows_the_cursor_and_a_click_puts_the_thing_there(shown):
     assert not any(name.startswith("/world/ghost") for name in names)
 
 
+def test_a_thing_is_put_on_what_is_below_the_cursor(shown):
+    simulation, view, page, _ = shown
+    begin(page, "box")
+    page.mouse.click(*on_screen(view, page, (0.2, 0.1, 1.0)))
+    until(lambda: view._context.selected == "box_2")
+    pose = simulation.robots["box_2"].pose
+    assert (pose.x, pose.y) == (pytest.approx(0.2, abs=0.05), pytest.approx(0.1, abs=0.05))
+    assert pose.z == pytest.approx(1.0, abs=1e-3)
+    simulation.delete("box_2")
+
+
 def test_escape_gives_it_up(shown):
     simulation, view, page, _ = shown
     before = set(simulation.robots)

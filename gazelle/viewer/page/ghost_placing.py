@@ -16,6 +16,7 @@ from gazelle.builders import sphere
 from gazelle.description import Light, Model, Pose, World
 from gazelle.rotations import rotate
 from gazelle.viewer.page.context import ROOT, PageContext
+from gazelle.viewer.page.landing import landing_point
 from gazelle.viewer.page.server import PageServer
 from gazelle.viewer.page.shapes import ShapeBatches
 
@@ -59,7 +60,7 @@ class _Carried:
 
 
 class GhostPlacing:
-    """Shows a ghost on the ground below the cursor; a click puts the thing there, Escape does not.
+    """Shows a ghost on what is below the cursor; a click puts the thing there, Escape does not.
 
     Args:
         context: Of the page.
@@ -111,32 +112,35 @@ class GhostPlacing:
             x, y = float(query.get("x", "nan")), float(query.get("y", "nan"))
         except ValueError:
             return
-        place = self._below(carried.client.camera, x, y)
+        eye, along = self._ray(carried.client.camera, x, y)
+        ended = "end" in query
+        self._context.simulation.lock.post(lambda: self._follow(carried, eye, along, ended=ended))
+
+    def _follow(self, carried: _Carried, eye: Floats, along: Floats, *, ended: bool) -> None:
+        """Move the ghost to what a ray meets, or put the thing there; between two steps."""
+        context = self._context
+        if carried is not self._carried:
+            return
+        place = np.full(3, math.nan)
+        if np.isfinite(along).all():
+            place = landing_point(context.simulation, context.chosen, eye, along)
         seen = bool(np.isfinite(place).all())
-        if "end" in query:
+        if ended:
             self.end()
             if seen:
-                x, y, z = (place - self._context.spot).tolist()
+                x, y, z = place.tolist()
                 pose = Pose(x, y, z, yaw=carried.yaw)
                 threading.Thread(
-                    target=lambda: self._context.careful(lambda: carried.put(pose)), daemon=True
+                    target=lambda: context.careful(lambda: carried.put(pose)), daemon=True
                 ).start()
         elif seen:
-            carried.frame.position, carried.frame.visible = place, True
+            carried.frame.position, carried.frame.visible = place + context.spot, True
 
-    def _below(self, camera: Any, x: float, y: float) -> Floats:
-        """Return where the ground is at a point of the picture [m], shape (3,); NaN for nowhere."""
+    def _ray(self, camera: Any, x: float, y: float) -> tuple[Floats, Floats]:
+        """Return start [m] and direction of the ray of a point of the picture, in its world."""
         high = math.tan(camera.fov / 2.0)
         ray = np.array([(2.0 * x - 1.0) * high * camera.aspect, (2.0 * y - 1.0) * high, 1.0])
         along = rotate(np.asarray(camera.wxyz)[[1, 2, 3, 0]], ray)
-        eye = np.asarray(camera.position) + self._context.heading * [1.0, 1.0, 0.0]
-        return on_level(eye, eye + along, 0.0)
-
-
-def on_level(eye: Floats, through: Floats, height: float) -> Floats:
-    """Intersect a ray from the eye through a point with a height [m]: shape (3,); NaN for none."""
-    along = through - eye
-    if abs(along[2]) < 1e-6 or (share := (height - eye[2]) / along[2]) <= 0.0:
-        return np.full(3, math.nan)
-    found: Floats = eye + share * along
-    return found
+        context = self._context
+        eye = np.asarray(camera.position) + context.heading * [1.0, 1.0, 0.0] - context.spot
+        return eye, along

@@ -11,7 +11,7 @@ import numpy as np
 from gazelle.array_types import Floats
 from gazelle.simulation.lights import delete_light
 from gazelle.viewer.page.context import ROOT, PageContext, ScenePart
-from gazelle.viewer.page.ghost_placing import on_level
+from gazelle.viewer.page.landing import on_level
 from gazelle.viewer.page.shapes import Instance
 
 NONE = "none"
