@@ -83,6 +83,7 @@ DRIVES = (
         "navigation_stage",
         ("navigation_stage move_base_fake_localization_10cm.launch",),
         "/base_pose_ground_truth",
+        ahead=(-0.9, 0.0),  # within its room, whose doors are narrower than it
         # Its world is of the days when stageros turned Stage's axes by 90 degrees.
         begin=(12.14, 26.068, math.radians(-2.637)),
     ),
@@ -116,15 +117,20 @@ DRIVES = (
         velocity="/r1/cmd_vel",
     ),
     Drive(
-        "hector_quadrotor",
-        ("hector_quadrotor_gazebo quadrotor_empty_world.launch",),
-        "quadrotor",
-        velocity="/cmd_vel",
+        "frobs_rl_resources",
+        ("kobuki_maze_rl visualize_gazebo.launch",),
+        "mobile_base",
+        velocity="/mobile_base/commands/velocity",
+        ahead=(0.6, 0.2),
     ),
-    Drive(
-        "teb_local_planner_tutorials",
-        ("teb_local_planner_tutorials robot_diff_drive_in_stage.launch",),
-        "/base_pose_ground_truth",
+    *(
+        Drive(
+            f"teb_local_planner_tutorials, {name}",
+            (f"teb_local_planner_tutorials robot_{name}_in_stage.launch",),
+            "/base_pose_ground_truth",
+            ahead=(0.4, 1.3),
+        )
+        for name in ("diff_drive", "carlike")
     ),
 )
 

@@ -101,6 +101,7 @@ _local: dict[str, MakeLocal | str] = {
     "base_local_planner/TrajectoryPlannerROS": (
         "gazelle.navigation.planners.trajectory_planner:TrajectoryPlanner"
     ),
+    "teb_local_planner/TebLocalPlannerROS": "gazelle.navigation.planners.teb:TebPlanner",
 }
 # Names of before packages were part of them.
 _SHORT = {name.rpartition("/")[2]: name for name in (*_global, *_local)}

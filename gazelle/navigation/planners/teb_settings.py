@@ -1,0 +1,241 @@
+"""Parameters of ``teb_local_planner``, and the shape of its robot."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from typing import Any, Final
+
+import numpy as np
+
+from gazelle.array_types import Floats
+from gazelle.errors import Error, did_you_mean
+from gazelle_ros.base.parameter_values import settings_from, value_of
+
+UNUSED: Final = frozenset(
+    [
+        "odom_topic",
+        "map_frame",
+        "transform_tolerance",
+        "via_points_ordered",
+        "exact_arc_length",
+        "publish_feedback",
+        "min_resolution_collision_check_angular",
+        "is_footprint_dynamic",
+        "max_vel_y",
+        "acc_lim_y",
+        "max_vel_trans",
+        "use_proportional_saturation",
+        "complete_global_plan",
+        "dynamic_obstacle_inflation_dist",
+        "include_dynamic_obstacles",
+        "costmap_obstacles_behind_robot_dist",
+        "obstacle_poses_affected",
+        "legacy_obstacle_association",
+        "obstacle_association_force_inclusion_factor",
+        "obstacle_association_cutoff_factor",
+        "costmap_converter_plugin",
+        "costmap_converter_spin_thread",
+        "costmap_converter_rate",
+        "obstacle_proximity_ratio_max_vel",
+        "obstacle_proximity_lower_bound",
+        "obstacle_proximity_upper_bound",
+        "optimization_verbose",
+        "weight_max_vel_y",
+        "weight_acc_lim_y",
+        "weight_dynamic_obstacle",
+        "weight_dynamic_obstacle_inflation",
+        "weight_velocity_obstacle_ratio",
+        "weight_prefer_rotdir",
+        "enable_homotopy_class_planning",
+        "enable_multithreading",
+        "simple_exploration",
+        "max_number_classes",
+        "max_number_plans_in_current_class",
+        "selection_obst_cost_scale",
+        "selection_prefer_initial_plan",
+        "selection_viapoint_cost_scale",
+        "selection_cost_hysteresis",
+        "selection_alternative_time_cost",
+        "selection_dropping_probability",
+        "switching_blocking_period",
+        "roadmap_graph_no_samples",
+        "roadmap_graph_samples",
+        "roadmap_graph_area_width",
+        "roadmap_graph_area_length_scale",
+        "h_signature_prescaler",
+        "h_signature_threshold",
+        "obstacle_keypoint_offset",
+        "obstacle_heading_threshold",
+        "viapoints_all_candidates",
+        "visualize_hc_graph",
+        "visualize_with_time_as_z_axis_scale",
+        "delete_detours_backwards",
+        "detours_orientation_tolerance",
+        "length_start_orientation_vector",
+        "max_ratio_detours_duration_best_duration",
+        "shrink_horizon_backup",
+        "shrink_horizon_min_duration",
+        "oscillation_recovery",
+        "oscillation_v_eps",
+        "oscillation_omega_eps",
+        "oscillation_recovery_min_duration",
+        "oscillation_filter_duration",
+        "divergence_detection",
+        "divergence_detection_max_chi_squared",
+        "feasibility_check_lookahead_distance",
+        "prevent_look_ahead_poses_near_goal",
+        "force_reinit_new_goal_angular",
+        "footprint_model",
+    ]
+)
+"""Parameters of the original that are known and change nothing here."""
+
+
+@dataclass(frozen=True, slots=True)
+class TebSettings:
+    """Parameters of ``teb_local_planner``; names and defaults are the original's."""
+
+    teb_autosize: bool = True
+    dt_ref: float = 0.3
+    dt_hysteresis: float = 0.1
+    min_samples: int = 3
+    max_samples: int = 500
+    global_plan_overwrite_orientation: bool = True
+    allow_init_with_backwards_motion: bool = False
+    global_plan_viapoint_sep: float = -1.0
+    max_global_plan_lookahead_dist: float = 1.0
+    global_plan_prune_distance: float = 1.0
+    force_reinit_new_goal_dist: float = 1.0
+    feasibility_check_no_poses: int = 5
+    control_look_ahead_poses: int = 1
+    max_vel_x: float = 0.4
+    max_vel_x_backwards: float = 0.2
+    max_vel_theta: float = 0.3
+    acc_lim_x: float = 0.5
+    acc_lim_theta: float = 0.5
+    min_turning_radius: float = 0.0
+    wheelbase: float = 1.0
+    cmd_angle_instead_rotvel: bool = False
+    xy_goal_tolerance: float = 0.2
+    yaw_goal_tolerance: float = 0.2
+    free_goal_vel: bool = False
+    trans_stopped_vel: float = 0.1
+    theta_stopped_vel: float = 0.1
+    min_obstacle_dist: float = 0.5
+    inflation_dist: float = 0.6
+    include_costmap_obstacles: bool = True
+    no_inner_iterations: int = 5
+    no_outer_iterations: int = 4
+    optimization_activate: bool = True
+    penalty_epsilon: float = 0.1
+    weight_max_vel_x: float = 2.0
+    weight_max_vel_theta: float = 1.0
+    weight_acc_lim_x: float = 1.0
+    weight_acc_lim_theta: float = 1.0
+    weight_kinematics_nh: float = 1000.0
+    weight_kinematics_forward_drive: float = 1.0
+    weight_kinematics_turning_radius: float = 1.0
+    weight_optimaltime: float = 1.0
+    weight_shortest_path: float = 0.0
+    weight_obstacle: float = 50.0
+    weight_inflation: float = 0.1
+    weight_viapoint: float = 1.0
+    weight_adapt_factor: float = 2.0
+    obstacle_cost_exponent: float = 1.0
+
+    def __post_init__(self) -> None:
+        for name in ("dt_ref", "max_vel_x", "max_vel_theta", "acc_lim_x", "acc_lim_theta"):
+            if not 0.0 < getattr(self, name) < math.inf:
+                raise Error(f"'{name}' is above 0, not {getattr(self, name)}")
+        for each in fields(self):
+            value = getattr(self, each.name)
+            if each.name.startswith("weight_") and not 0.0 <= value < math.inf:
+                raise Error(f"'{each.name}' is 0 or more, not {value}")
+        if not 3 <= self.min_samples <= self.max_samples:
+            raise Error(f"'min_samples' is 3 to 'max_samples', not {self.min_samples}")
+
+    @classmethod
+    def read(cls, name: str, values: Mapping[str, Any]) -> TebSettings:
+        """Read the parameters; unknown ones are warned of.
+
+        Raises:
+            Error: One is of the wrong kind, or out of range.
+        """
+        return settings_from(name, values, cls, others=UNUSED)
+
+
+@dataclass(frozen=True, slots=True)
+class TebFootprint:
+    """Circles that stand for the robot.
+
+    Attributes:
+        centers: In the robot's frame [m], shape (n, 2).
+        radii: Of the circles [m], shape (n,).
+    """
+
+    centers: Floats
+    radii: Floats
+
+    @classmethod
+    def read(cls, values: Mapping[str, Any]) -> TebFootprint:
+        """Return the shape by ``footprint_model``; lines are points, 5 cm apart.
+
+        Raises:
+            Error: The type is unknown, or a value is of the wrong kind.
+        """
+        model = values.get("footprint_model", {})
+        if not isinstance(model, Mapping):
+            raise Error(f"'footprint_model' is a namespace, not {model!r:.60}")
+        kind = value_of(model, "type", "point")
+        if kind == "point":
+            return cls(np.zeros((1, 2)), np.zeros(1))
+        if kind == "circular":
+            return cls(np.zeros((1, 2)), np.array([_number(model, "radius")]))
+        if kind == "two_circles":
+            offsets = _number(model, "front_offset"), -_number(model, "rear_offset")
+            radii = _number(model, "front_radius"), _number(model, "rear_radius")
+            return cls(np.array([[each, 0.0] for each in offsets]), np.array(radii))
+        if kind == "line":
+            corners = _points([model.get("line_start"), model.get("line_end")], "line_start")
+            return _along(corners)
+        if kind == "polygon":
+            corners = _points(model.get("vertices"), "vertices")
+            return _along(np.vstack((corners, corners[:1])))
+        hint = did_you_mean(kind, ("point", "circular", "two_circles", "line", "polygon"))
+        raise Error(f"'footprint_model/type' is no '{kind}'", hint=hint)
+
+
+_APART = 0.05
+
+
+def _along(corners: Floats) -> TebFootprint:
+    """Return points along lines."""
+    parts = [corners[-1:]]
+    for first, last in itertools.pairwise(corners):
+        count = max(1, math.ceil(float(np.hypot(*(last - first))) / _APART))
+        share = np.arange(count)[:, None] / count
+        parts.append(first + share * (last - first))
+    centers = np.concatenate(parts)
+    return TebFootprint(centers, np.zeros(len(centers)))
+
+
+def _number(model: Mapping[str, Any], name: str) -> float:
+    if name not in model:
+        raise Error(f"'footprint_model/{name}' is missing")
+    number = float(value_of(model, name, 0.0))
+    if not 0.0 <= abs(number) < math.inf:
+        raise Error(f"'footprint_model/{name}' is a number, not {number}")
+    return number
+
+
+def _points(value: Any, name: str) -> Floats:
+    try:
+        points = np.array(value, np.float64)
+    except (TypeError, ValueError):
+        points = np.zeros(0)
+    if points.ndim != 2 or points.shape[1] != 2 or len(points) < 2 or not np.isfinite(points).all():
+        raise Error(f"'footprint_model/{name}' is points [x, y], not {value!r:.60}")
+    return points
