@@ -50,10 +50,11 @@ DESCRIPTIONS = {
     "sick_tim": ("sick_tim",),
     "velodyne_description": ("HDL-32E", "VLP-16"),
 }
+_SIMULATOR = "{corpus}/turtlebot__turtlebot_simulator"
 _TURTLEBOT = {
     "TURTLEBOT_3D_SENSOR": "kinect",
-    "TURTLEBOT_GAZEBO_WORLD_FILE": "{corpus}/turtlebot__turtlebot_simulator/turtlebot_gazebo/worlds/playground.world",
-    "TURTLEBOT_GAZEBO_MAP_FILE": "{corpus}/turtlebot__turtlebot_simulator/turtlebot_gazebo/maps/playground.yaml",
+    "TURTLEBOT_GAZEBO_WORLD_FILE": f"{_SIMULATOR}/turtlebot_gazebo/worlds/playground.world",
+    "TURTLEBOT_GAZEBO_MAP_FILE": f"{_SIMULATOR}/turtlebot_gazebo/maps/playground.yaml",
 }
 DRIVES = (
     Drive(
@@ -117,11 +118,14 @@ DRIVES = (
         velocity="/r1/cmd_vel",
     ),
     Drive(
-        "frobs_rl_resources",
-        ("kobuki_maze_rl visualize_gazebo.launch",),
-        "mobile_base",
-        velocity="/mobile_base/commands/velocity",
-        ahead=(0.6, 0.2),
+        "turtlebot_stage",
+        ("turtlebot_stage turtlebot_in_stage.launch",),
+        "/base_pose_ground_truth",
+        ahead=(0.4, 1.3),
+        environment={
+            "TURTLEBOT_STAGE_MAP_FILE": f"{_SIMULATOR}/turtlebot_stage/maps/maze.yaml",
+            "TURTLEBOT_STAGE_WORLD_FILE": f"{_SIMULATOR}/turtlebot_stage/maps/stage/maze.world",
+        },
     ),
     *(
         Drive(

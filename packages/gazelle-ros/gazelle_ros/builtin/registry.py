@@ -61,6 +61,9 @@ _OWN = {
         BuiltinPackage("depthimage_to_laserscan", {
             "depthimage_to_laserscan": "gazelle_ros.builtin.scans.depth_image:main",
         }, {"DepthImageToLaserScanNodelet": "gazelle_ros.builtin.scans.depth_image:DepthImageToLaserScan"}),
+        BuiltinPackage("diagnostic_aggregator", {
+            "aggregator_node": "gazelle_ros.builtin.diagnostic_aggregator:main",
+        }),
         BuiltinPackage("image_proc", {"image_proc": "gazelle_ros.builtin.images.image_proc:main"}, {
             "rectify": "gazelle_ros.builtin.images.rectify:Rectify",
             "debayer": "gazelle_ros.builtin.images.debayer:Debayer",
