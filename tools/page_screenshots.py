@@ -43,7 +43,7 @@ def running() -> Iterator[Simulation]:
     over = threading.Event()
     with Simulation(assets.world("turtlebot3_world"), threads=1) as simulation:
         robot = simulation.spawn("turtlebot3_burger", pose=gazelle.Pose(-2.0, -0.5))
-        robot.inputs["cmd_vel"].send(linear=0.15, angular=0.1)
+        robot.inputs["cmd_vel"].send(linear=0.1, angular=0.35)
 
         def run() -> None:
             while not over.is_set():
@@ -78,10 +78,14 @@ def graph_view() -> Iterator[tuple[Callable[[], Any], Callable[[Any], None]]]:
     """Yield the opener of the page of the graph of that simulation, and what is clicked there."""
 
     def arrange(page: Any) -> None:
-        for title in ("Topic monitor", "tf tree"):
+        for title in ("Plot", "tf tree"):
             page.get_by_role("combobox", name="Open panel").click()
             page.get_by_role("option", name=title, exact=True).click()
             page.get_by_text(title, exact=True).first.wait_for()
+        field = page.locator("xpath=//label[normalize-space()='Field']/following::input[1]")
+        field.fill("/turtlebot3_burger/odom/pose/pose/position")
+        field.press("Tab")
+        page.get_by_role("button", name="Add", exact=True).click()
 
     with (
         Master("127.0.0.1", 0) as master,

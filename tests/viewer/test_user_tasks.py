@@ -113,6 +113,17 @@ def test_a_box_slides_once_its_friction_is_changed(world):
     until(lambda: box.pose.x > 3.2)
 
 
+def test_the_numbers_of_an_output_are_plotted(world):
+    _, page = world
+    page.get_by_text("Plot", exact=True).first.click()
+    field = page.get_by_label("Output", exact=True)
+    field.click()
+    page.get_by_role("option", name="turtlebot3_burger: odom", exact=True).click()
+    chart = page.locator(".uplot")
+    chart.get_by_text("position", exact=False).first.wait_for()
+    assert chart.locator("canvas").count() == 1
+
+
 def test_the_page_is_dark_or_light(world):
     _, page = world
     scheme = "document.documentElement.dataset.mantineColorScheme == "

@@ -72,6 +72,23 @@ def test_a_click_in_the_tree_selects_in_the_scene(shown):
     until(lambda: not orange(pixels(page)).any())
 
 
+def test_a_model_is_followed(shown):
+    simulation, view, page = shown
+    row(page, "model", "box").click()
+    page.get_by_label("Follow", exact=True).click()
+
+    def middle():
+        return np.argwhere(red(pixels(page))).mean(axis=0)
+
+    until(lambda: np.any(view._context.heading))
+    before = middle()
+    simulation.robots["box"].set_pose((8.0, -5.0, 0.5))
+    until(lambda: view._context.heading[0] == 8.0 and np.abs(middle() - before).max() < 4.0)
+    simulation.robots["box"].set_pose((0.0, 0.0, 0.5))
+    page.get_by_label("Follow", exact=True).click()
+    until(lambda: not np.any(view._context.heading))
+
+
 def test_a_click_in_the_scene_selects_in_the_tree(shown):
     _, _, page = shown
     rows, columns = np.nonzero(red(pixels(page)))

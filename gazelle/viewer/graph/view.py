@@ -116,8 +116,9 @@ class GraphView(Closeable):
         context.server.light_up()
         context.page.initial_camera.position = (-4.0, -5.0, 5.0)
         context.scene.add_grid(
-            "/grid", 20.0, 20.0, cell_color=_GRID, section_color=_GRID, position=(0.0, 0.0, -0.01)
-        )
+            "/grid", 20.0, 20.0, cell_color=_GRID, section_color=_GRID,
+            cell_thickness=0.5, section_thickness=0.8, position=(0.0, 0.0, -0.01),
+        )  # fmt: skip
         self._status: Any = gui.add_markdown("waiting for the graph ...")
         self._frame: Any = gui.add_dropdown("Fixed frame", (context.requested_frame or _AUTOMATIC,))
         context.on_user_change(self._frame, self._choose_frame)

@@ -15,7 +15,8 @@ from gazelle.viewer.page.context import PageContext
 NONE = "none"
 _KEPT = 600  # moments
 _FEW = 6  # curves
-_COLORS = ("#3a6ea5", "#d9822b", "#4b965f", "#965aa5", "#c0392b", "#3ca0aa")
+COLORS = ("#3a6ea5", "#d9822b", "#4b965f", "#965aa5", "#c0392b", "#3ca0aa", "#8c8c2a", "#777777")
+"""Colours of curves, seen on white and on black."""
 
 
 class PlotLayer:
@@ -105,7 +106,7 @@ class PlotLayer:
         series = [uplot.Series(label="time [s]")]
         series += [
             uplot.Series(label=name, stroke=color, width=1.5)
-            for name, color in zip(curves, _COLORS, strict=False)
+            for name, color in zip(curves, COLORS, strict=False)
         ]
         self._curves = curves
         with self._folder:

@@ -14,13 +14,12 @@ from gazelle.array_types import Floats
 from gazelle.errors import Error, did_you_mean
 from gazelle.viewer.graph.context import GraphContext
 from gazelle.viewer.graph.panels.panel import GraphPanel
-from gazelle.viewer.page.plots import numbers_of
+from gazelle.viewer.page.plots import COLORS, numbers_of
 from gazelle_ros import load_message
 from gazelle_ros.messages.yaml import to_dict
 from gazelle_ros.tools.errors import ToolError
 from gazelle_ros.tools.fields import FieldAccess, parse_path, value_at
 
-_COLORS = ("#3a6ea5", "#d9822b", "#4b965f", "#965aa5", "#c0392b", "#3ca0aa", "#8c8c2a", "#777777")
 _KEPT = 5000
 _FEW = 8  # curves of one field
 _NOTHING = "none"
@@ -183,9 +182,7 @@ class PlotPanel(GraphPanel):
 
         series = [uplot.Series(label="time [s]")]
         series += [
-            uplot.Series(
-                label=name, stroke=_COLORS[number % len(_COLORS)], width=1.5, spanGaps=True
-            )
+            uplot.Series(label=name, stroke=COLORS[number % len(COLORS)], width=1.5, spanGaps=True)
             for number, name in enumerate(names)
         ]
         self._curves = names
@@ -194,7 +191,6 @@ class PlotPanel(GraphPanel):
             tuple(series),
             scales={"x": uplot.Scale(time=False)},
             aspect=2.0,
-            order=-1.0,
         )
 
 
