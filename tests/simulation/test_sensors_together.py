@@ -179,11 +179,13 @@ def test_lidars_of_a_kind_are_cast_in_one_call_whoever_listens(monkeypatch):
         sim.run(0.3)
         before, count = told(sim), len(heard)
         cast = MujocoRanges.cast
-        monkeypatch.setattr(
-            MujocoRanges,
-            "cast",
-            lambda self, *args: calls.append(self._origins.shape[:2]) or cast(self, *args),
-        )
+
+        def noted(self, *args):
+            ranges = cast(self, *args)
+            calls.append(ranges.shape[1:])
+            return ranges
+
+        monkeypatch.setattr(MujocoRanges, "cast", noted)
         sim.run(1.0)
         after = told(sim)
     assert all(old != new for old, new in zip(before[1], after[1], strict=True))

@@ -8,7 +8,6 @@ from functools import partial
 
 import mujoco
 import numpy as np
-from mujoco.batch import Batch
 
 from gazelle.argument_checks import checked, indices, world_indices
 from gazelle.array_types import Floats, Indices, Worlds
@@ -18,6 +17,7 @@ from gazelle.engines.history import Call
 from gazelle.engines.laws import laws_of, with_profile
 from gazelle.engines.limits import MAX_WORLDS, check_model, check_world, physics_step, whole_number
 from gazelle.engines.mujoco.attachments import LinkHolding
+from gazelle.engines.mujoco.batch import WorldBatch
 from gazelle.engines.mujoco.compiler.motors import motor_again
 from gazelle.engines.mujoco.compiler.spec import CompilerInput
 from gazelle.engines.mujoco.compiler.welds import Attachment
@@ -143,10 +143,10 @@ class MujocoEngine:
         self.make_kinematic(model)
 
     @staticmethod
-    def _batch_of(nworld: int, threads: int, model: mujoco.MjModel, _: World) -> Batch:
+    def _batch_of(nworld: int, threads: int, model: mujoco.MjModel, _: World) -> WorldBatch:
         """Return the worlds of a compiled model."""
         sleepy = bool(model.opt.enableflags & mujoco.mjtEnableBit.mjENBL_SLEEP)
-        return Batch(model, nworld, threads, persistent=sleepy)
+        return WorldBatch(model, nworld, threads, persistent=sleepy)
 
     # -- what runs ---------------------------------------------------------------------
 

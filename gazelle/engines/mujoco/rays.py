@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Hashable, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.engines.motion import Hits, Placement
@@ -15,7 +14,7 @@ from gazelle.engines.mujoco.worlds import RunningWorlds
 from gazelle.engines.range_rays import RangeRays
 from gazelle.engines.state import LinkRow, LinkRows
 from gazelle.engines.table import Table
-from gazelle.native.ray_frames import carried_rays, met_from_inside
+from gazelle.native.ray_frames import CarriedRays
 from gazelle.native.system import System
 
 _SEEN = (COLLISION_GROUP, CLOSED_GROUP, OPEN_GROUP)
@@ -31,31 +30,27 @@ _BEHIND = 1e-6
 _MOST_PASSED = 8
 
 
-def nearest(
-    run: RunningWorlds, start: Floats, along: Floats, worlds: Worlds | None, excluded: int = 0
-) -> tuple[Hits, NDArray[np.int32]]:
-    """Return the first hits of rays, and the geoms hit (-1 for nothing).
+def meet(
+    run: RunningWorlds,
+    rays: CarriedRays,
+    worlds: Worlds | None,
+    excluded: int = 0,
+    *,
+    signed: bool = False,
+) -> None:
+    """Find the first hits of rays.
 
     Args:
         run: Worlds that run.
-        start: In the world frame, ``beside`` where they should begin [m], shape (n, rays, 3).
-        along: Unit vectors, shape (n, rays, 3).
+        rays: Aimed, ``beside`` where they should begin.
         worlds: Worlds.
         excluded: A body that rays pass through; the world's, 0, for none.
+        signed: Whether to set distances to minus infinity where something is met from inside.
     """
-    distance, geom, normal = run.batch.ray(
-        start,
-        along,
-        geomgroup=_GROUPS,
-        bodyexclude=excluded or -1,
-        ids=worlds,
-        normal=True,
-    )
-    distance, normal = (np.ascontiguousarray(each, np.float64) for each in (distance, normal))
-    geom = np.ascontiguousarray(geom, np.int32)
-    # A sheet is met from both sides.
-    sheets = run.sheets
-    return Hits(distance, met_from_inside(distance, normal, along, geom, sheets)), geom
+    if excluded:
+        rays.passed.fill(excluded)
+    run.batch.meet(rays, _GROUPS, worlds)
+    rays.settle(run.sheets, signed=signed)  # a sheet is met from both sides
 
 
 def beside(run: RunningWorlds) -> Floats:
@@ -63,21 +58,22 @@ def beside(run: RunningWorlds) -> Floats:
     return BESIDE if run.compiled.model.nmesh else _NOWHERE
 
 
-def behind(
-    run: RunningWorlds, start: Floats, along: Floats, worlds: Worlds | None, own: Sequence[int]
+def meet_behind(
+    run: RunningWorlds, rays: CarriedRays, worlds: Worlds | None, own: Sequence[int]
 ) -> Hits:
     """Return the first hits of rays, except on some geoms of the world's body.
 
     MuJoCo passes through whole bodies only. Rays that meet one of these continue behind it.
     """
-    passed = np.zeros(along.shape[:2])
+    start, passed = rays.start.copy(), np.zeros(rays.distance.shape)
     for _ in range(_MOST_PASSED):
-        hits, geom = nearest(run, start + passed[..., None] * along, along, worlds)
-        met = np.isin(geom, own)
+        rays.start[:] = start + passed[..., None] * rays.along
+        meet(run, rays, worlds)
+        met = np.isin(rays.geom, own)
         if not met.any():
             break
-        passed = np.where(met, passed + hits.distance + _BEHIND, passed)
-    return Hits(passed + hits.distance, hits.from_inside)
+        passed = np.where(met, passed + rays.distance + _BEHIND, passed)
+    return Hits(passed + rays.distance, rays.inside)
 
 
 def cast_from(
@@ -100,8 +96,9 @@ def cast_from(
         ignore_own: Whether rays pass through the shapes of the link.
     """
     origins, directions = (np.ascontiguousarray(each, np.float64)[None] for each in rays)
-    at, turned = place.position[:, None], place.quaternion[:, None]
-    start, along = carried_rays(at, turned, origins, directions, beside(run))
+    cast = CarriedRays(origins, directions, len(place.position))
+    at, turned = np.ascontiguousarray(place.position), np.ascontiguousarray(place.quaternion)
+    cast.aim(at[:, None], turned[:, None], beside(run))
     body = run.layout.link(link).body if ignore_own else 0
     if ignore_own and not body:
         inside = f"{link}::"
@@ -111,8 +108,9 @@ def cast_from(
             if name.startswith(inside)
             for geom in geoms
         ]
-        return behind(run, start, along, worlds, own)
-    return nearest(run, start, along, worlds, body)[0]
+        return meet_behind(run, cast, worlds, own)
+    meet(run, cast, worlds, body)
+    return Hits(cast.distance, cast.inside)
 
 
 class RangeFinders:
@@ -152,14 +150,24 @@ class MujocoRanges:
         self, run: RunningWorlds, links: Table[LinkRow, LinkRows], rays: Sequence[RangeRays]
     ) -> None:
         self._run, self._links = run, links[tuple(each.link for each in rays)]
-        self._origins = np.array([each.origins for each in rays])
-        self._directions = np.array([each.directions for each in rays])
+        self._rays = (
+            np.array([each.origins for each in rays]),
+            np.array([each.directions for each in rays]),
+        )
+        self._all: CarriedRays | None = None
 
     def cast(self, worlds: Worlds | None = None) -> Floats:
-        """Return distances now [m], shape (n, finders, rays)."""
-        place = self._links.placement(worlds)
-        rays = self._origins, self._directions, beside(self._run)
-        start, along = carried_rays(place.position, place.quaternion, *rays)
-        hits = nearest(self._run, start, along, worlds)[0]
-        hits.distance[hits.from_inside] = -np.inf
-        return hits.distance.reshape(-1, *self._origins.shape[:2])
+        """Return distances now [m], shape (n, finders, rays); the next call may overwrite them."""
+        place, rays = self._links.placement(worlds), self._rays_in(worlds)
+        at, turned = np.ascontiguousarray(place.position), np.ascontiguousarray(place.quaternion)
+        rays.aim(at, turned, beside(self._run))
+        meet(self._run, rays, worlds, signed=True)
+        return rays.distance.reshape(-1, *self._rays[0].shape[:2])
+
+    def _rays_in(self, worlds: Worlds | None) -> CarriedRays:
+        """Return the rays for some worlds; those of all are kept."""
+        if worlds is not None:
+            return CarriedRays(*self._rays, len(worlds))
+        if self._all is None:
+            self._all = CarriedRays(*self._rays, self._run.nworld)
+        return self._all

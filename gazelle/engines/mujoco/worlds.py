@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 import mujoco
 import numpy as np
-from mujoco.batch import Batch
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.array_types import Bools, Floats, Worlds
 from gazelle.description import World
+from gazelle.engines.mujoco.batch import WorldBatch
 from gazelle.engines.mujoco.compiler.description_edits import with_inertial
 from gazelle.engines.mujoco.compiler.free_bodies import keep_awake
 from gazelle.engines.mujoco.compiler.motors import AXES, motor_count, motor_of, refuse_motors
@@ -92,7 +92,7 @@ class RunningWorlds:
 
     recipe: CompilerInput
     compiled: Compiled
-    batch: Batch
+    batch: WorldBatch
     layout: MujocoLayout
     state: StateViews
     overlaps: Overlaps
@@ -108,7 +108,7 @@ class RunningWorlds:
         self,
         recipe: CompilerInput,
         nworld: int,
-        make_batch: Callable[[mujoco.MjModel, World], Batch],
+        make_batch: Callable[[mujoco.MjModel, World], WorldBatch],
         *,
         calls: bool = True,
     ) -> None:

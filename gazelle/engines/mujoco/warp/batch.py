@@ -2,25 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import mujoco
 import numpy as np
 import warp as wp
-from mujoco.batch import MODEL_FIELDS, Batch
-from numpy.typing import ArrayLike, NDArray
+from mujoco.batch import MODEL_FIELDS
+from numpy.typing import NDArray
 
-from gazelle.array_types import Floats
+from gazelle.array_types import Floats, Worlds
+from gazelle.engines.mujoco.batch import WorldBatch
 from gazelle.engines.mujoco.contact_laws.law_data import spun
 from gazelle.engines.mujoco.warp.device_worlds import WRITTEN, DeviceWorlds
+from gazelle.native.ray_frames import CarriedRays
 
 _BAD_ACCELERATION = mujoco.mjtWarning.mjWARN_BADQACC
 _LARGEST = 1e10  # as MuJoCo judges what is broken
 _ALL = slice(None)
 
 
-class WarpBatch(Batch):  # type: ignore[misc]  # MuJoCo has no types
+class WarpBatch(WorldBatch):
     """Worlds with states here, in double precision, between calls of ``step``.
 
     A step takes them to the device and back, in single precision. Queries of a state that stands
@@ -67,26 +68,16 @@ class WarpBatch(Batch):  # type: ignore[misc]  # MuJoCo has no types
         if stage:
             self.forward(ids, stage=stage)
 
-    def ray(
-        self,
-        pnt: ArrayLike,
-        vec: ArrayLike,
-        *,
-        geomgroup: Sequence[int] | NDArray[Any],
-        bodyexclude: int = -1,
-        ids: Any = None,
-        normal: bool = False,
-    ) -> tuple[Any, ...]:
-        """Cast rays on the device: distances, geoms and normals; see MuJoCo's."""
+    def meet(self, rays: CarriedRays, groups: NDArray[np.uint8], worlds: Worlds | None) -> None:
+        """Find what rays meet, on the device; see MuJoCo's."""
         self._share()
-        shape = np.broadcast_shapes(np.shape(pnt), np.shape(vec))
-        start, along = np.zeros((2, self.nsim, *shape[1:]))
-        rows = _ALL if ids is None else np.asarray(ids)
-        start[rows], along[rows] = pnt, vec
+        start, along = np.zeros((2, self.nsim, *rays.start.shape[1:]))
+        rows = _ALL if worlds is None else worlds
+        start[rows], along[rows] = rays.start, rays.along
         along[~along.any(axis=-1)] = (0.0, 0.0, 1.0)  # in worlds that were not requested
-        groups = wp.types.vector(length=6, dtype=float)(*(float(each) for each in geomgroup))
-        found = self._device.cast(self._fields(), start, along, groups, bodyexclude)
-        return tuple(each[rows] for each in found[: 3 if normal else 2])
+        shown = wp.types.vector(length=6, dtype=float)(*(float(each) for each in groups))
+        found = self._device.cast(self._fields(), start, along, shown, int(rays.passed[0, 0]))
+        rays.distance[:], rays.geom[:], rays.normal[:] = (each[rows] for each in found)
 
     def on_device(self, name: str) -> Any:
         """Return a field of the state on the device, float32, shape (nworld, n)."""

@@ -157,7 +157,7 @@ class DeviceWorlds:
     def cast(
         self, state: Mapping[str, Floats], start: Floats, along: Floats, groups: Any, excluded: int
     ) -> tuple[Floats, NDArray[np.int32], Floats]:
-        """Cast rays in all worlds; see ``WarpBatch.ray``, which returns the same."""
+        """Cast rays in all worlds; see ``WarpBatch.meet``."""
         self._put(state)
         mujoco_warp.kinematics(self._model, self._data)
         shape = start.shape[:2]
