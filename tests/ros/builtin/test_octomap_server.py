@@ -357,7 +357,9 @@ def test_a_wrong_line_of_the_saver_is_an_error(words, text):
     ("parameters", "text"),
     [
         ({"resolution": 0.0}, "'resolution' is positive"),
-        ({"filter_ground": True}, "'filter_ground' is not supported"),
+        ({"colored_map": True}, "'colored_map' is not supported"),
+        ({"ground_filter/angle": 2.0}, "'angle' of ground_filter is from 0 to pi/2, not 2.0"),
+        ({"map_file": "nowhere.bt"}, "the map cannot be read"),
         ({"sensor_model/hit": 0.2}, "probabilities of a sensor_model"),
         ({"sensor_model": 3}, "'sensor_model' is a mapping"),
     ],

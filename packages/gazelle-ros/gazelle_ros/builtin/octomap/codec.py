@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 from gazelle_ros.base.array_types import Bools, Ints64
 from gazelle_ros.builtin.octomap.morton import DEPTH
 
-_FREE, _OCCUPIED, _INNER = 1, 2, 3
+FREE, OCCUPIED, INNER = 1, 2, 3
+"""Kinds of a child in binary trees."""
 _CHILDREN = 8
 _NODE = np.dtype([("value", "<f4"), ("children", "u1")])
 
@@ -22,13 +23,13 @@ def binary_tree(codes: Ints64, occupied: Bools) -> bytes:
         codes: Of the cells, ascending.
         occupied: Shape (n,).
     """
-    leaves, kinds = codes, np.where(occupied, _OCCUPIED, _FREE)
+    leaves, kinds = codes, np.where(occupied, OCCUPIED, FREE)
     inner: Ints64 = np.zeros(0, np.int64)
     depths, starts, words = [], [], []
     for depth in range(DEPTH - 1, -1, -1):
         same, pruned, pruned_kinds = _groups(leaves, kinds)
         children = np.concatenate((leaves[~same], inner))
-        states = np.concatenate((kinds[~same], np.full(len(inner), _INNER)))
+        states = np.concatenate((kinds[~same], np.full(len(inner), INNER)))
         parents, place = np.unique(children >> 3, return_inverse=True)
         described = np.zeros(len(parents), np.uint16)
         np.bitwise_or.at(described, place, (states << 2 * (children & 7)).astype(np.uint16))

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+import logging
 import threading
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from gazelle_ros.base.array_types import Bools, Floats
-from gazelle_ros.builtin.arguments import run_node
+from gazelle_ros.base.errors import RosError
+from gazelle_ros.builtin.arguments import parse_arguments, run_node
 from gazelle_ros.builtin.octomap.codec import binary_tree, full_tree
 from gazelle_ros.builtin.octomap.messages import cubes, octomap, projected
+from gazelle_ros.builtin.octomap.reader import OctomapFile, read_octomap
 from gazelle_ros.builtin.octomap.settings import OctomapSettings
 from gazelle_ros.builtin.octomap.voxels import VoxelMap
 from gazelle_ros.builtin.scans.conversion import StampedWork
@@ -31,6 +36,7 @@ from gazelle_ros.tf import StampedTransform
 from gazelle_ros.time import Time
 
 _QUEUE = 5
+_LOG = logging.getLogger("gazelle.ros.octomap")
 
 
 class OctomapServer(StampedWork[StampedTransform]):
@@ -40,18 +46,22 @@ class OctomapServer(StampedWork[StampedTransform]):
 
     Args:
         node: On the graph.
+        file: A map to begin with; that of the parameter ``~map_file`` if "".
 
     Raises:
-        Error: A parameter is wrong.
+        Error: A parameter is wrong, or the file cannot be read.
 
     Attributes:
         map: The map.
     """
 
-    def __init__(self, node: Node) -> None:
+    def __init__(self, node: Node, file: str = "") -> None:
         self.settings = OctomapSettings.read(node)
         super().__init__(node, {self.settings.frame_id}, _QUEUE)
+        begun = self._begun(Path(file or self.settings.map_file))
         self.map = VoxelMap(self.settings.resolution, self.settings.sensor)
+        if begun is not None:
+            self.map.load(begun.codes, begun.values)
         self._stamp = Time(0)
         self._lock = threading.RLock()
         kinds = {
@@ -73,14 +83,25 @@ class OctomapServer(StampedWork[StampedTransform]):
         node.serve("~reset", std_srvs.srv.Empty, self._reset)
         node.subscribe("cloud_in", sensor_msgs.msg.PointCloud2, self.queue.add, _QUEUE)
 
+    def _begun(self, path: Path) -> OctomapFile | None:
+        """Return the map to begin with, if there is any; its resolution is that of the node then."""
+        if path == Path():
+            return None
+        found = read_octomap(path)
+        self.settings = replace(self.settings, resolution=found.resolution)
+        _LOG.info("the map %s is loaded (%d cells)", path, len(found.codes))
+        return found
+
     def find(self, message: Any) -> StampedTransform:
         """Return the transform of a cloud to the frame of the map.
 
         Raises:
-            TransformException: It is not known.
+            TransformException: It is not known, or that to the base where the ground is filtered.
         """
         frame, own = self.settings.frame_id.strip("/"), message.header.frame_id.strip("/")
         stamp = message.header.stamp.to_nsec()
+        if self.settings.filter_ground:
+            self._to_base(stamp)
         return StampedTransform(stamp) if own == frame else self.tree.lookup(frame, own, stamp)
 
     def use(self, message: Any, found: StampedTransform) -> None:
@@ -90,10 +111,22 @@ class OctomapServer(StampedWork[StampedTransform]):
             ValueError: It is malformed.
         """
         points = moved(found, cloud_points(message))
+        points = points[self._within(points)]
+        ground = self._ground(points, message.header.stamp.to_nsec())
         with self._lock:
-            self.map.insert(np.array(found.translation), points[self._within(points)])
+            self.map.insert(np.array(found.translation), points[~ground], points[ground])
             self._stamp = message.header.stamp
         self._publish(*self._topics)
+
+    def _ground(self, points: Floats, stamp: int) -> Bools:
+        """Return which points of the map's frame are ground."""
+        if not self.settings.filter_ground:
+            return np.zeros(len(points), np.bool_)
+        return self.settings.ground.ground(moved(self._to_base(stamp), points))
+
+    def _to_base(self, stamp: int) -> StampedTransform:
+        base, frame = self.settings.base_frame_id.strip("/"), self.settings.frame_id.strip("/")
+        return self.tree.lookup(base, frame, stamp)
 
     def _within(self, points: Floats) -> Bools:
         """Return whether points are within the limits, shape (n,)."""
@@ -184,5 +217,8 @@ class OctomapServer(StampedWork[StampedTransform]):
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Map clouds until shutdown; returns the exit code."""
-    return run_node(arguments, "octomap_server", OctomapServer)
+    """Map clouds until shutdown, beginning with the map of a file if one is named; returns 0."""
+    plain = parse_arguments(arguments, "octomap_server").plain
+    if len(plain) > 1:
+        raise RosError("it takes one file at most", hint="octomap_server_node [MAP.bt|MAP.ot]")
+    return run_node(arguments, "octomap_server", lambda node: OctomapServer(node, *plain))

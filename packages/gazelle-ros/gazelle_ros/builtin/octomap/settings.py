@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from gazelle_ros.base.errors import RosError
 from gazelle_ros.base.parameter_values import fields_of, value_of, warn_of_unknown
+from gazelle_ros.builtin.octomap.ground import GroundFilter
 from gazelle_ros.builtin.octomap.voxels import HitModel
 from gazelle_ros.builtin.parameters import private_values
 from gazelle_ros.node import Node
@@ -15,8 +17,7 @@ from gazelle_ros.node import Node
 _SENSOR = {"hit": "hit", "miss": "miss", "least": "min", "most": "max", "max_range": "max_range"}
 """Fields of `HitModel`, and parameters below ``sensor_model``."""
 _UNUSED = (
-    "base_frame_id", "colored_map", "compress_map", "incremental_2D_projection", "latch",
-    "filter_ground", "ground_filter", "publish_free_space",
+    "colored_map", "compress_map", "incremental_2D_projection", "latch", "publish_free_space",
 )  # fmt: skip
 
 
@@ -39,7 +40,11 @@ class OctomapSettings:
         min_x_size: Least size of the projected map, around its origin [m].
         min_y_size: Likewise along y [m].
         filter_speckles: Whether occupied cells without occupied neighbours are not published.
+        filter_ground: Whether points of the ground only free what is before them.
+        base_frame_id: Frame in which the ground is near z = 0.
+        map_file: A map to begin with; "" for none.
         sensor: Parameters below ``sensor_model``.
+        ground: Parameters below ``ground_filter``.
     """
 
     resolution: float = 0.05
@@ -56,7 +61,11 @@ class OctomapSettings:
     min_x_size: float = 0.0
     min_y_size: float = 0.0
     filter_speckles: bool = False
+    filter_ground: bool = False
+    base_frame_id: str = "base_footprint"
+    map_file: str = ""
     sensor: HitModel = HitModel()  # noqa: RUF009  # it is frozen
+    ground: GroundFilter = GroundFilter()  # noqa: RUF009  # it is frozen
 
     @classmethod
     def read(cls, node: Node) -> OctomapSettings:
@@ -67,24 +76,34 @@ class OctomapSettings:
         """
         values = private_values(node)
         where = node.resolve("~")
-        known = [name for name in cls.__slots__ if name != "sensor"]
+        spaces = {"sensor": "sensor_model", "ground": "ground_filter"}
+        known = [name for name in cls.__slots__ if name not in spaces]
         warn_of_unknown(where, values, [*known, *_UNUSED])
-        sensor = values.get("sensor_model", {})
-        if not isinstance(sensor, Mapping):
-            raise RosError(f"'sensor_model' is a mapping of parameters, not {sensor!r}")
-        warn_of_unknown(f"{where}/sensor_model", sensor, _SENSOR.values())
-        for name in ("filter_ground", "colored_map"):
-            if values.get(name) is True:
-                raise RosError(f"'{name}' is not supported", hint="leave it out")
+        if values.get("colored_map") is True:
+            raise RosError("'colored_map' is not supported", hint="leave it out")
+        sensor = _below(where, values, "sensor_model", _SENSOR.values())
+        ground = _below(where, values, "ground_filter", GroundFilter.__slots__)
         found = cls(
-            **fields_of(cls, values, without=("sensor",)),
+            **fields_of(cls, values, without=tuple(spaces)),
             sensor=HitModel(
                 **{
                     field: value_of(sensor, name, getattr(HitModel(), field))
                     for field, name in _SENSOR.items()
                 }
             ),
+            ground=GroundFilter(**fields_of(GroundFilter, ground)),
         )
         if not found.resolution > 0.0:
             raise RosError(f"'resolution' is positive, not {found.resolution}")
         return found
+
+
+def _below(
+    where: str, values: Mapping[str, Any], name: str, known: Collection[str]
+) -> Mapping[str, Any]:
+    """Return the parameters of a namespace; unknown ones are warned of."""
+    found = values.get(name, {})
+    if not isinstance(found, Mapping):
+        raise RosError(f"'{name}' is a mapping of parameters, not {found!r}")
+    warn_of_unknown(f"{where}/{name}", found, known)
+    return found

@@ -70,7 +70,7 @@ class VoxelMap:
         """True for cells rather occupied than free, shape (n,)."""
         return self.values >= 0.0
 
-    def insert(self, origin: Floats, points: Floats) -> None:
+    def insert(self, origin: Floats, points: Floats, ground: Floats | None = None) -> None:
         """Add points that a sensor saw at the same time.
 
         A cell counts once: as occupied if it has a point, else as free if a ray crosses it.
@@ -78,17 +78,15 @@ class VoxelMap:
         Args:
             origin: Place of the sensor [m], shape (3,).
             points: Shape (n, 3) [m].
+            ground: Points that only free what is before them, shape (m, 3) [m].
         """
         start = origin / self.resolution
-        ways = points / self.resolution - start
-        away = np.linalg.norm(ways, axis=1)
-        most = self._sensor.max_range / self.resolution if self._sensor.max_range >= 0.0 else np.inf
-        near = away <= most
-        with np.errstate(invalid="ignore"):
-            cut = start + ways[~near] * (most / away[~near, None])
-        hits, ends = self._ends(start + ways[near])
+        near, cut = self._within_range(start, points)
+        hits, ends = self._ends(near)
         open_cells, open_ends = self._ends(cut)
-        passed = crossed(start, np.concatenate((ends, open_ends))) + ORIGIN
+        floor = np.zeros((0, 3)) if ground is None else ground
+        floor_ends = np.concatenate(self._within_range(start, floor))
+        passed = crossed(start, np.concatenate((ends, open_ends, floor_ends))) + ORIGIN
         inside = ((passed >= 0) & (passed < 1 << DEPTH)).all(axis=1)
         free = np.concatenate((encode(passed[inside]), open_cells))
         free.sort()  # which takes less time than finding those that are there twice by their hashes
@@ -96,6 +94,16 @@ class VoxelMap:
         fresh[1:] &= free[1:] != free[:-1]
         self._update(free[fresh], self._miss)
         self._update(hits, self._hit)
+
+    def load(self, codes: Ints64, values: NDArray[np.float32]) -> None:
+        """Replace all cells.
+
+        Args:
+            codes: Ascending.
+            values: Log odds; those out of the limits of the sensor become the nearest ones.
+        """
+        self.codes = codes
+        self.values = np.clip(values, self._least, self._most).astype(np.float32)
 
     def clear(self, low: Floats, high: Floats) -> None:
         """Set all known cells within a box to surely free [m]."""
@@ -127,6 +135,16 @@ class VoxelMap:
         found = np.zeros(len(self.codes), np.bool_)
         found[occupied] = alone
         return found
+
+    def _within_range(self, start: Floats, points: Floats) -> tuple[Floats, Floats]:
+        """Return points within the range, and places at the range before the others [cells]."""
+        ways = points / self.resolution - start
+        away = np.linalg.norm(ways, axis=1)
+        most = self._sensor.max_range / self.resolution if self._sensor.max_range >= 0.0 else np.inf
+        near = away <= most
+        with np.errstate(invalid="ignore"):
+            cut = start + ways[~near] * (most / away[~near, None])
+        return start + ways[near], cut
 
     def _ends(self, ends: Floats) -> tuple[Ints64, Floats]:
         """Return the cells of ends within the tree, and an end in each."""
