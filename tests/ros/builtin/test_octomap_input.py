@@ -1,4 +1,4 @@
-"""What octomap_server begins with, and the ground in its clouds."""
+"""Input of octomap_server: map files, and the ground in its clouds."""
 
 from __future__ import annotations
 
