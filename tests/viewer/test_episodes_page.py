@@ -88,7 +88,7 @@ def test_a_policy_is_watched_as_it_fails(capsys, monkeypatch):
 
     until(told)
     url = "".join(said).split()[-1]
-    with opened(url, (1400, 900)) as page:
+    with opened(url, (900, 480)) as page:
         page.get_by_text("1 of 3: collision after").wait_for()
         page.get_by_role("button", name="next", exact=True).click()
         page.get_by_text("2 of 3: collision after").wait_for()

@@ -44,7 +44,7 @@ def world():
         Simulation("empty", threads=1) as simulation,
         beside(lambda: simulation.run(0.05, rate=1.0)),
         LiveView(simulation) as view,
-        opened(view.url, (1400, 900)) as page,
+        opened(view.url, (1000, 900)) as page,
     ):
         page.get_by_text("Spawn", exact=True).first.click()
         page.get_by_role("button", name="Save world").click(trial=True)  # the folder is open

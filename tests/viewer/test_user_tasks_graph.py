@@ -25,10 +25,10 @@ def office():
         serve_ros(simulation, master.uri) as server,
     ):
         robot = simulation.spawn("courier", namespace="/")
-        simulation.physics.update_rate = 2.0 / simulation.physics.time_step
+        simulation.physics.update_rate = 1.0 / simulation.physics.time_step
         thread = threading.Thread(target=server.run)
         thread.start()
-        with graph_page((1400, 900), master.uri) as graph:
+        with graph_page(master_uri=master.uri) as graph:
             yield robot, graph
         server.stop()
         thread.join()
@@ -40,7 +40,7 @@ def test_a_robot_drives_to_a_goal(office):
     begin = robot.position[0, :2].copy()
     graph.choose("Tool", "2D Nav Goal")
     graph.wait_text("and drag to where it")
-    graph.drag((340, 520), (420, 520))
+    graph.drag((180, 300), (280, 300))
     graph.wait_text("Sent to /move_base_simple/goal")
     said = graph.view._tools._hint.content
     goal = np.array([float(each) for each in said.partition(": ")[2].split(" m")[0].split(", ")])
