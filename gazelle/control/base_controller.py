@@ -27,7 +27,7 @@ from gazelle.errors import ControlError, ControlWarning
 from gazelle.rotations import from_yaw
 
 AXES = ("linear/x", "linear/y", "angular/z")
-_KEPT = ("wanted", "stamps", "last", "earlier")
+_KEPT = ("desired", "stamps", "last", "earlier")
 
 
 class BaseController(Controller):
@@ -114,7 +114,7 @@ class BaseController(Controller):
 
     def command_speed(self, speed: float, rows: Worlds) -> None:
         """Command a forward speed [m/s]."""
-        self.memory.wanted[rows] = (speed, 0.0, 0.0)
+        self.memory.desired[rows] = (speed, 0.0, 0.0)
         self.memory.stamps[rows] = self.now_ns
 
     # -- commands ------------------------------------------------------------------------
@@ -137,7 +137,7 @@ class BaseController(Controller):
             text = f"controller '{self.name}' ignores a command that is not finite"
             warnings.warn(ControlWarning(text), stacklevel=3)
             return
-        self.memory.wanted[rows] = velocities
+        self.memory.desired[rows] = velocities
         self.memory.stamps[rows] = self.now_ns
 
     def _brake(self, rows: Worlds) -> None:
@@ -153,7 +153,7 @@ class BaseController(Controller):
 
     def _begin(self, rows: Worlds) -> None:
         self._brake(rows)
-        self.memory.wanted[rows] = 0.0
+        self.memory.desired[rows] = 0.0
         self.memory.stamps[rows] = self.now_ns
         self.remeasure(rows)
 

@@ -3,7 +3,7 @@ from gazelle.control.odometry_law cimport OdometryLaw
 
 cdef class BaseLaw(ControlLaw):
     cdef OdometryLaw odometry
-    cdef double[:, ::1] wanted, last, earlier, bounds
+    cdef double[:, ::1] desired, last, earlier, bounds
     cdef long long[::1] stamps
     cdef unsigned char[::1] lost
     cdef long long timeout
@@ -12,6 +12,6 @@ cdef class BaseLaw(ControlLaw):
     cdef bint advance(self, Py_ssize_t world, double period) noexcept nogil
     cdef void drive(self, Py_ssize_t world, bint old) noexcept nogil
 
-cdef double limited(double wanted, double before, double earlier, double dt, double* bounds) noexcept nogil
+cdef double limited(double desired, double before, double earlier, double dt, double* bounds) noexcept nogil
 cdef double tangent(double angle) noexcept nogil
 cdef double clipped(double value, double low, double high, double factor) noexcept nogil

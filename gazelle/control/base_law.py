@@ -23,14 +23,14 @@ class BaseMemory:
     """State of a base; used in place.
 
     Attributes:
-        wanted: The last command: forward, sideways [m/s] and turning [rad/s], shape (nworld, 3).
+        desired: The last command: forward, sideways [m/s] and turning [rad/s], shape (nworld, 3).
         stamps: Time of its arrival [ns], shape (nworld,).
         last: Current velocity command, shape (nworld, 3).
         earlier: The one before, likewise.
         lost: Mask of worlds in which the wheels could not be measured, shape (nworld,).
     """
 
-    wanted: Floats
+    desired: Floats
     stamps: Ints64
     last: Floats
     earlier: Floats
@@ -65,8 +65,8 @@ class BaseLaw(ControlLaw):
         *,
         open_loop: bool,
     ) -> None:
-        ControlLaw.__init__(self, len(memory.wanted))
-        self.odometry, self.wanted, self.stamps = odometry, memory.wanted, memory.stamps
+        ControlLaw.__init__(self, len(memory.desired))
+        self.odometry, self.desired, self.stamps = odometry, memory.desired, memory.stamps
         self.last, self.earlier = memory.last, memory.earlier
         self.lost = memory.lost.view(np.uint8)
         self.bounds = np.array(bounds, np.float64)
@@ -90,11 +90,11 @@ class BaseLaw(ControlLaw):
         old: cython.bint = now - self.stamps[world] > self.timeout
         axis: cython.Py_ssize_t
         for axis in range(3):
-            wanted: cython.double = 0.0 if old else self.wanted[world, axis]
+            desired: cython.double = 0.0 if old else self.desired[world, axis]
             before: cython.double = self.last[world, axis]
             earlier: cython.double = self.earlier[world, axis]
             self.last[world, axis] = limited(
-                wanted, before, earlier, period, column(self.bounds[axis])
+                desired, before, earlier, period, column(self.bounds[axis])
             )
             self.earlier[world, axis] = before
         self.drive(world, old)
@@ -122,7 +122,7 @@ class BaseLaw(ControlLaw):
 @cython.nogil
 @cython.exceptval(check=False)
 def limited(
-    wanted: cython.double,
+    desired: cython.double,
     before: cython.double,
     earlier: cython.double,
     dt: cython.double,
@@ -131,13 +131,13 @@ def limited(
     """Return the limited velocity: jerk first, then acceleration, then velocity.
 
     Args:
-        wanted: Now.
+        desired: Now.
         before: The last one.
         earlier: The one before that.
         dt: Since the last one [s].
         bounds: Least and greatest velocity, acceleration, jerk; infinite for none.
     """
-    held: cython.double = wanted
+    held: cython.double = desired
     if isfinite(bounds[4]) or isfinite(bounds[5]):
         change: cython.double = before - earlier
         held = (

@@ -17,15 +17,15 @@ class ForwardLaw(ControlLaw):
 
     Args:
         joints: To be commanded.
-        wanted: The commands, shape (nworld, joints); used in place.
+        desired: The commands, shape (nworld, joints); used in place.
     """
 
-    def __init__(self, joints: JointHandles, wanted: Floats) -> None:
-        ControlLaw.__init__(self, len(wanted))
-        self.wanted = wanted
+    def __init__(self, joints: JointHandles, desired: Floats) -> None:
+        ControlLaw.__init__(self, len(desired))
+        self.desired = desired
         self.command, self.columns = joints.commands[joints.fields[0]]
 
     def control(self, world: int, now: int, period: float) -> None:  # noqa: ARG002  as of others
         """Copy them."""
         for i in range(self.columns.shape[0]):
-            self.command[world, self.columns[i]] = self.wanted[world, i]
+            self.command[world, self.columns[i]] = self.desired[world, i]

@@ -28,7 +28,7 @@ class FourWheelLaw(BaseLaw):
     Args:
         wheels: Front left, front right, rear left, rear right.
         steers: The joints that steer them, likewise.
-        arrays: Wanted angles in front and behind [rad], shape (nworld, 2); whether a velocity is wanted
+        arrays: Wanted angles in front and behind [rad], shape (nworld, 2); whether a velocity is desired
             instead, shape (nworld,); measured angles, shape (nworld, 2). Used in place.
         sizes: Track between steering joints, wheel base, radius, and how far wheels are outside of
             the steering joints [m], shape (4,).

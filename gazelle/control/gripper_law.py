@@ -1,6 +1,6 @@
 # cython: annotation_typing=False, infer_types=True
 # mypy: disable-error-code="attr-defined, misc, no-any-return"
-"""A gripper's joint held where it is wanted, in native code."""
+"""Law of a gripper's joint: hold a position, in native code."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ class GripperLaw(ControlLaw):
 
     Args:
         joint: The one of the gripper.
-        wanted: Its positions [m or rad], shape (nworld,); used in place, as the others are.
+        desired: Its positions [m or rad], shape (nworld,); used in place, as the others are.
         most: Largest efforts [N or N m], likewise.
         output: Acting effort, as far as it is known [N or N m], likewise.
     """
 
-    def __init__(self, joint: JointHandles, wanted: Floats, most: Floats, output: Floats) -> None:
-        ControlLaw.__init__(self, len(wanted))
-        self.wanted, self.most, self.output = wanted, most, output
+    def __init__(self, joint: JointHandles, desired: Floats, most: Floats, output: Floats) -> None:
+        ControlLaw.__init__(self, len(desired))
+        self.desired, self.most, self.output = desired, most, output
         self.position, self.velocity = joint.states.position, joint.states.velocity
         self.joint = joint.columns[0]
         command, columns = joint.commands[joint.fields[0]]
@@ -41,10 +41,10 @@ class GripperLaw(ControlLaw):
         """Control the gripper: apply an effort, or forward the command."""
         most = fabs(self.most[world])
         if not self.by_pid:
-            self.command[world, self.column] = self.wanted[world]
+            self.command[world, self.column] = self.desired[world]
             self.output[world] = self.most[world]
             return
-        lack = self.wanted[world] - self.position[world, self.joint]
-        out = self.pid.push(world, 0, lack, period, True, -self.velocity[world, self.joint])
+        error = self.desired[world] - self.position[world, self.joint]
+        out = self.pid.push(world, 0, error, period, True, -self.velocity[world, self.joint])
         out = min(max(out, -most), most)
         self.output[world] = self.command[world, self.column] = out

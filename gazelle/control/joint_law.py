@@ -36,14 +36,14 @@ class JointMemory:
         placed_speed: Of joints that are put somewhere [m/s or rad/s].
         previous: Last commands that limits of positions and velocities go by; NaN for none.
         held: Positions that an emergency stop holds [m or rad].
-        wanted: Commands within limits.
+        desired: Commands within limits.
         stopped: Whether the emergency stop is pressed, shape (nworld,).
     """
 
     placed_speed: Floats
     previous: Floats
     held: Floats
-    wanted: Floats
+    desired: Floats
     stopped: Bools
 
     @classmethod
@@ -79,7 +79,7 @@ class JointLaw:
         self.position_command = ports["position_command"]
         self.velocity_command = ports["velocity_command"]
         self.placed_speed, self.previous = memory.placed_speed, memory.previous
-        self.held, self.wanted = memory.held, memory.wanted
+        self.held, self.desired = memory.held, memory.desired
         self.stopped = memory.stopped.view(np.uint8)
         self.turning, self.endless = np.array(turning, np.float64), np.array(endless, np.uint8)
         self.count = self.position.shape[1]
@@ -88,7 +88,7 @@ class JointLaw:
         self.position_at, self.velocity_at = start(self.position), start(self.velocity)
         self.effort_at, self.turning_at = start(self.effort), column(self.turning)
         self.pushed_at = start(self.pushed)
-        self.wanted_at, self.command_at = start(self.wanted), start(self.effort_command)
+        self.desired_at, self.command_at = start(self.desired), start(self.effort_command)
         self.width = self.effort_command.shape[1]
 
     def arrange(self, kinds: Any, columns: Any, limits: LimitLaw, pid: PidLaw) -> None:
@@ -136,13 +136,13 @@ class JointLaw:
             return
         for i in range(self.kinds.shape[0]):
             kind, out = self.kinds[i], self.hold(world, i, period)
-            self.wanted[world, i] = out
+            self.desired[world, i] = out
             if kind == BY_EFFORT:
                 self.push(world, i, out)
             elif kind == BY_MOTOR:
                 self.drive(world, i, out)
             elif kind != BY_PLACE:
-                out = self.pid.push(world, i, self.lack(world, i, out), period, False, 0.0)
+                out = self.pid.push(world, i, self.error(world, i, out), period, False, 0.0)
                 most = self.limits.effort[i]
                 self.push(world, i, clamp(out, -most, most))
 
@@ -151,18 +151,18 @@ class JointLaw:
         first, stopped = world * self.count, self.stopped[world]
         command = offset(self.command_at, world * self.width + self.first)
         at, rate = offset(self.position_at, first), offset(self.velocity_at, first)
-        wanted, applied = offset(self.wanted_at, first), offset(self.applied_at, first)
+        desired, applied = offset(self.desired_at, first), offset(self.applied_at, first)
         if self.limits.hard:
             write_within(
-                self.count, stopped, command, at, rate, wanted, applied, offset(self.pushed_at, first),
+                self.count, stopped, command, at, rate, desired, applied, offset(self.pushed_at, first),
                 self.limits.lower_at, self.limits.upper_at, self.limits.velocity_at,
                 self.limits.effort_at,
             )  # fmt: skip
             return
         for i in range(self.count):
             command[i] = self.limits.hold_effort(i, command[i], at[i], rate[i])
-            wanted[i] = 0.0 if stopped else command[i]
-            self.push(world, i, wanted[i])
+            desired[i] = 0.0 if stopped else command[i]
+            self.push(world, i, desired[i])
 
     def hold(self, world: int, i: int, period: float) -> float:
         """Return a command within limits, as modified by the emergency stop."""
@@ -186,14 +186,14 @@ class JointLaw:
             self.previous[world, i] = self.velocity_command[world, c] = value
         return 0.0 if self.stopped[world] else value
 
-    def lack(self, world: int, i: int, wanted: float) -> float:
+    def error(self, world: int, i: int, desired: float) -> float:
         """Return the error; that of a position goes the way round that limits allow."""
         if self.kinds[i] == BY_VELOCITY:
-            return wanted - self.velocity[world, i]
+            return desired - self.velocity[world, i]
         if self.turning[i] == 0.0:
-            return wanted - self.position[world, i]
+            return desired - self.position[world, i]
         low, high = self.limits.lower[i], self.limits.upper[i]
-        return distance(self.position[world, i], wanted, self.endless[i], low, high)
+        return distance(self.position[world, i], desired, self.endless[i], low, high)
 
     def push(self, world: int, i: int, effort: float) -> None:
         """Apply an effort, added to what acts already."""
@@ -240,7 +240,7 @@ def follow(count: int, position: Floats, measured: Floats, turning: Floats) -> b
 
 
 def write_within(
-    count: int, stopped: bool, command: Floats, position: Floats, velocity: Floats, wanted: Floats,  # noqa: FBT001
+    count: int, stopped: bool, command: Floats, position: Floats, velocity: Floats, desired: Floats,  # noqa: FBT001
     applied: Floats, pushed: Floats, lower: Floats, upper: Floats, fastest: Floats, strongest: Floats,
 ) -> None:  # fmt: skip
     """Apply efforts within hard limits, several joints at a time; see ``LimitLaw.hold_effort``."""
@@ -252,7 +252,7 @@ def write_within(
         held = min(max(command[i], low), high)
         command[i] = held
         held = 0.0 if stopped else held
-        wanted[i] = held
+        desired[i] = held
         held = held if isfinite(held) else 0.0
         pushed[i] = 1.0 if held != applied[i] else pushed[i]
         applied[i] = held

@@ -18,7 +18,7 @@ cdef class JointPidLaw(ControlLaw):
     cdef double* measured(self, Py_ssize_t world) noexcept nogil
 
 @cython.locals(i=Py_ssize_t)
-cdef void velocities_lacking(Py_ssize_t count, double* restrict at, double* restrict targets, double* restrict error) noexcept nogil
+cdef void velocity_errors(Py_ssize_t count, double* restrict at, double* restrict targets, double* restrict error) noexcept nogil
 
-@cython.locals(i=Py_ssize_t, lack=double, wanted=double, far=Py_ssize_t)
-cdef bint positions_lacking(Py_ssize_t count, double* restrict at, double* restrict targets, double* restrict error, double* restrict lower, double* restrict upper, double* restrict turning) noexcept nogil
+@cython.locals(i=Py_ssize_t, difference=double, far=Py_ssize_t)
+cdef bint position_errors(Py_ssize_t count, double* restrict at, double* restrict targets, double* restrict error, double* restrict lower, double* restrict upper, double* restrict turning) noexcept nogil

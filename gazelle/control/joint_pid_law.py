@@ -67,10 +67,10 @@ class JointPidLaw(ControlLaw):
         at, targets = self.measured(world), offset(self.targets_at, first)
         error, near = offset(self.error_at, first), False
         if self.by_velocity:
-            velocities_lacking(count, at, targets, error)
+            velocity_errors(count, at, targets, error)
         else:
             lower, upper = self.lower_at, self.upper_at
-            near = positions_lacking(count, at, targets, error, lower, upper, self.turning_at)
+            near = position_errors(count, at, targets, error, lower, upper, self.turning_at)
         if self.first_column >= 0:
             out = offset(self.command_at, world * self.command_width + self.first_column)
             self.pid.push_row(world, error, period, near, False, error, out)
@@ -91,13 +91,13 @@ class JointPidLaw(ControlLaw):
         return at
 
 
-def velocities_lacking(count: int, at: Floats, targets: Floats, error: Floats) -> None:
+def velocity_errors(count: int, at: Floats, targets: Floats, error: Floats) -> None:
     """Compute the errors of velocities."""
     for i in range(count):
         error[i] = targets[i] - at[i]
 
 
-def positions_lacking(
+def position_errors(
     count: int, at: Floats, targets: Floats, error: Floats, lower: Floats, upper: Floats,
     turning: Floats,
 ) -> bool:  # fmt: skip
@@ -108,9 +108,11 @@ def positions_lacking(
     far = 0
     for i in range(count):
         targets[i] = min(max(targets[i], lower[i]), upper[i])
-        lack = targets[i] - at[i]
-        far += 0 if -_TURN < lack < _TURN else 1
-        error[i] = within(at[i], shorter(lack), lower[i], upper[i]) if turning[i] != 0.0 else lack
+        difference = targets[i] - at[i]
+        far += 0 if -_TURN < difference < _TURN else 1
+        if turning[i] != 0.0:
+            difference = within(at[i], shorter(difference), lower[i], upper[i])
+        error[i] = difference
     if far == 0:
         return True
     for i in range(count):  # more than a whole turn, or not finite

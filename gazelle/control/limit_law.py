@@ -53,8 +53,8 @@ class LimitLaw:
         if not self.bounded[i]:
             return self.velocity[i] if high else -self.velocity[i]
         end = self.soft_upper[i] if high else self.soft_lower[i]
-        wanted = -self.k_position[i] * (position - end)
-        return clamp(wanted, -self.velocity[i], self.velocity[i])
+        desired = -self.k_position[i] * (position - end)
+        return clamp(desired, -self.velocity[i], self.velocity[i])
 
     def hold_effort(self, i: int, command: float, position: float, velocity: float) -> float:
         """Return the limited effort; beyond a limit only effort that leads back."""

@@ -308,7 +308,7 @@ class JointTrajectoryController(Controller):
     # -- publishing -------------------------------------------------------------------------
 
     def _state(self) -> TrajectoryState:
-        desired = self._wanted()
+        desired = self._desired()
         position, velocity = self._joints.position, self._joints.velocity
         return TrajectoryState(
             self.now_ns,
@@ -319,12 +319,12 @@ class JointTrajectoryController(Controller):
             self._uptime - self._table.begins(),
         )
 
-    def _wanted(self) -> JointSample:
+    def _desired(self) -> JointSample:
         """Return the targets of the last update; before the first, those of the next."""
         memory = self._memory
         if self._followed:
-            rate, bend = memory.wanted_rate.copy(), memory.wanted_bend.copy()
-            return JointSample(memory.wanted.copy(), rate, bend)
+            columns = memory.desired_position, memory.desired_velocity, memory.desired_acceleration
+            return JointSample(*(each.copy() for each in columns))
         now = self._table.sample(self._uptime)
         return JointSample(now.position, now.velocity, now.acceleration)
 

@@ -28,9 +28,9 @@ class TrajectoryMemory:
     Attributes:
         uptime: Since the start [s], shape (nworld,).
         period: Of the last update [s], likewise.
-        wanted: Positions of the last update [m or rad], shape (nworld, joints).
-        wanted_rate: Velocities [m/s or rad/s], likewise.
-        wanted_bend: Accelerations [m/s² or rad/s²], likewise.
+        desired_position: Positions of the last update [m or rad], shape (nworld, joints).
+        desired_velocity: Velocities [m/s or rad/s], likewise.
+        desired_acceleration: Accelerations [m/s² or rad/s²], likewise.
         goal: Number of the goal that is active; 0 for none, shape (nworld,).
         reached: Joints that are where it wants them, shape (nworld, joints).
         path: Tolerances on the way: position, velocity, acceleration; shape (nworld, joints, 3).
@@ -44,9 +44,9 @@ class TrajectoryMemory:
 
     uptime: Floats
     period: Floats
-    wanted: Floats
-    wanted_rate: Floats
-    wanted_bend: Floats
+    desired_position: Floats
+    desired_velocity: Floats
+    desired_acceleration: Floats
     goal: Ints64
     reached: Bools
     path: Floats
@@ -63,7 +63,7 @@ class TrajectoryMemory:
         shapes: dict[str, tuple[int, ...]] = {
             field.name: (nworld, joints)
             for field in fields(cls)
-            if field.name.startswith("wanted") or field.name == "reached"
+            if field.name.startswith("desired") or field.name == "reached"
         }
         shapes |= dict.fromkeys(("path", "end"), (nworld, joints, 3))
         kinds = {"goal": np.int64, "reached": np.bool_, "event": np.int64}
@@ -92,8 +92,11 @@ class TrajectoryLaw(ControlLaw):
         self.position, self.velocity = joints.states.position, joints.states.velocity
         self.joints = joints.columns
         self.uptime, self.period = memory.uptime, memory.period
-        self.wanted, self.wanted_rate = memory.wanted, memory.wanted_rate
-        self.wanted_bend = memory.wanted_bend
+        self.desired_position, self.desired_velocity = (
+            memory.desired_position,
+            memory.desired_velocity,
+        )
+        self.desired_acceleration = memory.desired_acceleration
         self.goal, self.reached = memory.goal, memory.reached.view(np.uint8)
         self.path, self.end, self.patience = memory.path, memory.end, memory.patience
         self.event, self.event_goal = memory.event, memory.event_goal
@@ -113,7 +116,7 @@ class TrajectoryLaw(ControlLaw):
 
         Args:
             pid: With as many loops as joints.
-            forward: On the wanted velocity besides, shape (joints,).
+            forward: On the desired velocity besides, shape (joints,).
             command: Of the interface, in which the joints are.
         """
         self.pid, self.forward, self.effort_command, self.by_pid = pid, forward, command, True
@@ -158,11 +161,13 @@ class TrajectoryLaw(ControlLaw):
         c0, c1 = self.acting[world, joint, 3], self.acting[world, joint, 4]
         c2, c3 = self.acting[world, joint, 5], self.acting[world, joint, 6]
         c4, c5 = self.acting[world, joint, 7], self.acting[world, joint, 8]
-        self.wanted[world, joint] = c0 + t * (c1 + t * (c2 + t * (c3 + t * (c4 + t * c5))))
-        self.wanted_rate[world, joint] = moving * (
+        self.desired_position[world, joint] = c0 + t * (
+            c1 + t * (c2 + t * (c3 + t * (c4 + t * c5)))
+        )
+        self.desired_velocity[world, joint] = moving * (
             c1 + t * (2 * c2 + t * (3 * c3 + t * (4 * c4 + t * 5 * c5)))
         )
-        self.wanted_bend[world, joint] = moving * (
+        self.desired_acceleration[world, joint] = moving * (
             2 * c2 + t * (6 * c3 + t * (12 * c4 + t * 20 * c5))
         )
 
@@ -175,54 +180,56 @@ class TrajectoryLaw(ControlLaw):
         for i in range(self.joints.shape[0]):
             c = self.segment(world, i, time)
             self.sample(world, i, time)
-            lack = shortest(self.position[world, self.joints[i]], self.wanted[world, i])
-            slow = self.wanted_rate[world, i] - self.velocity[world, self.joints[i]]
+            error = shortest(self.position[world, self.joints[i]], self.desired_position[world, i])
+            velocity_error = self.desired_velocity[world, i] - self.velocity[world, self.joints[i]]
             if missed:
-                self.check_tolerances(world, i, c, time, lack, slow)
+                self.check_tolerances(world, i, c, time, error, velocity_error)
                 all_there = all_there and self.reached[world, i]
-            self.command(world, i, lack, slow, period)
+            self.command(world, i, error, velocity_error, period)
         if missed and self.event[world] == NOTHING and all_there:
-            self.tell(world, THERE, 0, 0.0)
+            self.report(world, THERE, 0, 0.0)
         if missed and self.event[world] != NOTHING:
             self.event_goal[world] = self.goal[world]
             self.goal[world] = 0
 
     def check_tolerances(
-        self, world: int, i: int, c: int, time: float, lack: float, slow: float
+        self, world: int, i: int, c: int, time: float, error: float, velocity_error: float
     ) -> None:
         """Check whether a joint is within the goal's tolerances."""
         if self.goals[world, i, c] != self.goal[world]:
             return
         end = self.acting[world, i, 0] + self.acting[world, i, 1]
         if time < end:
-            if not within(lack, slow, self.path[world, i, 0], self.path[world, i, 1]):
-                self.tell(world, STRAYED, i, lack)
+            if not within(error, velocity_error, self.path[world, i, 0], self.path[world, i, 1]):
+                self.report(world, STRAYED, i, error)
         elif c == self.start.shape[2] - 1:
-            there = within(lack, slow, self.end[world, i, 0], self.end[world, i, 1])
+            there = within(error, velocity_error, self.end[world, i, 0], self.end[world, i, 1])
             if there:
                 self.reached[world, i] = 1
             elif time >= end + self.patience[world]:
-                self.tell(world, LATE, i, lack)
+                self.report(world, LATE, i, error)
 
-    def tell(self, world: int, code: int, joint: int, error: float) -> None:
+    def report(self, world: int, code: int, joint: int, error: float) -> None:
         """Record the outcome of a goal: its worst violation, of the first joint."""
         if self.event[world] == NOTHING or code < self.event[world]:
             self.event[world], self.event_joint[world] = code, joint
             self.event_error[world] = error
 
-    def command(self, world: int, i: int, lack: float, slow: float, period: float) -> None:
-        """Command what is wanted as it is, or what a PID makes of what it lacks."""
+    def command(
+        self, world: int, i: int, error: float, velocity_error: float, period: float
+    ) -> None:
+        """Write the desired values as commands, or the output of a PID for the errors."""
         if self.by_pid:
-            self.effort_command[world, self.columns[i]] = self.forward[i] * self.wanted_rate[
+            self.effort_command[world, self.columns[i]] = self.forward[i] * self.desired_velocity[
                 world, i
-            ] + self.pid.push(world, i, lack, period, True, slow)
+            ] + self.pid.push(world, i, error, period, True, velocity_error)
             return
         if self.places:
-            self.position_command[world, self.columns[i]] = self.wanted[world, i]
+            self.position_command[world, self.columns[i]] = self.desired_position[world, i]
         if self.speeds:
-            self.velocity_command[world, self.columns[i]] = self.wanted_rate[world, i]
+            self.velocity_command[world, self.columns[i]] = self.desired_velocity[world, i]
         if self.bends:
-            self.acceleration_command[world, self.columns[i]] = self.wanted_bend[world, i]
+            self.acceleration_command[world, self.columns[i]] = self.desired_acceleration[world, i]
 
 
 def within(position: float, velocity: float, far: float, fast: float) -> bool:

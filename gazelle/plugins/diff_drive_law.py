@@ -116,12 +116,15 @@ class DiffDriveLaw(System):
             w, i = row // self.rows, row % self.rows
             turning = self.angular[w, i, 2] * self.half[i]
             left, right = self.linear[w, i, 0] - turning, self.linear[w, i, 0] + turning
-            lack, other = left - self.speeds[w, i, 0], right - self.speeds[w, i, 1]
+            left_error, right_error = left - self.speeds[w, i, 0], right - self.speeds[w, i, 1]
             most = self.acceleration[i] * ((time - self.last_ns[w, i]) / 1e9)
             self.last_ns[w, i] = time
-            if self.acceleration[i] > 0.0 and min(abs(lack), abs(other)) >= RAMP_DEADBAND:
-                self.speeds[w, i, 0] += min(max(lack, -most), most)
-                self.speeds[w, i, 1] += min(max(other, -most), most)
+            if (
+                self.acceleration[i] > 0.0
+                and min(abs(left_error), abs(right_error)) >= RAMP_DEADBAND
+            ):
+                self.speeds[w, i, 0] += min(max(left_error, -most), most)
+                self.speeds[w, i, 1] += min(max(right_error, -most), most)
             else:
                 self.speeds[w, i, 0], self.speeds[w, i, 1] = left, right
             left, right = (

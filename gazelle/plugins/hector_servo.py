@@ -127,8 +127,8 @@ class HectorServo(ModelPlugin):
             worlds = np.flatnonzero(self._frames == frame)
             angles = angles_of(multiply(turn, self._wanted)[worlds], self._order)
             for i, servo in enumerate(self._servos):
-                lack = angles[:, self._first + i] - servo.positions(worlds)[:, 0]
-                self._speeds[worlds, i] = p * lack - d * servo.velocities(worlds)[:, 0]
+                error = angles[:, self._first + i] - servo.positions(worlds)[:, 0]
+                self._speeds[worlds, i] = p * error - d * servo.velocities(worlds)[:, 0]
         if self._fastest > 0.0:
             np.clip(self._speeds, -self._fastest, self._fastest, out=self._speeds)
 

@@ -63,16 +63,16 @@ class MimicJoint(ModelPlugin):
         upper = self._engine.parameter("joint_upper", name)
         wanted = self._joint.positions()[:, :1] * self._multiplier + self._offset
         target = np.clip(wanted, lower, upper)
-        lack = target - self._mimic.positions()[:, :1]
+        error = target - self._mimic.positions()[:, :1]
         if self._pid is not None:
-            efforts = self._pid.update(-lack[:, 0], self._physics.time_step)
-            self._mimic.effort = np.where(np.abs(lack[:, 0]) >= self._spared, efforts, 0.0)
+            efforts = self._pid.update(-error[:, 0], self._physics.time_step)
+            self._mimic.effort = np.where(np.abs(error[:, 0]) >= self._spared, efforts, 0.0)
             return
         if self._pushed:
             pace = self._joint.velocities()[:, :1] * self._multiplier
-            self._mimic.drive((pace + lack / _HASTE)[:, 0])
+            self._mimic.drive((pace + error / _HASTE)[:, 0])
             return
-        chosen = np.flatnonzero(np.abs(lack[:, 0]) >= self._spared)
+        chosen = np.flatnonzero(np.abs(error[:, 0]) >= self._spared)
         if chosen.size:
             pace = self._joint.velocities()[:, :1] * self._multiplier
             self._engine.joints[name].set_position(target[chosen], chosen)

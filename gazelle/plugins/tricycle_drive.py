@@ -51,9 +51,9 @@ class TricycleLimits:
         radius: Of the driven wheel [m].
         acceleration: Of the wheel [rad/s²]; 0 for no limit.
         deceleration: Likewise.
-        speed_tolerance: Less lack of speed than this is none [rad/s].
+        speed_tolerance: Smaller errors of the speed count as none [rad/s].
         steering_speed: [rad/s]; 0 to be there at once.
-        angle_tolerance: Less lack of angle than this is none [rad].
+        angle_tolerance: Smaller errors of the angle count as none [rad].
     """
 
     radius: float
@@ -224,10 +224,10 @@ class TricycleSystem(OdometrySystem[TricycleDrive]):
         ramped = self._acceleration > 0.0
         if ramped.any():
             current = self._wheels.velocities()
-            lack = target - current
-            most = np.where(lack > 0.0, self._acceleration, self._deceleration) * interval
-            near = np.abs(lack) < self._speed_tolerance
-            slow = np.where(near, current, current + np.clip(lack, -most, most))
+            error = target - current
+            most = np.where(error > 0.0, self._acceleration, self._deceleration) * interval
+            near = np.abs(error) < self._speed_tolerance
+            slow = np.where(near, current, current + np.clip(error, -most, most))
             target = np.where(ramped, slow, target)
         self._wheels.drive(target)
 
@@ -237,8 +237,8 @@ class TricycleSystem(OdometrySystem[TricycleDrive]):
         if placed.any():
             self._steering.place(target, 0.0, placed)
         if not placed.all():
-            lack = target - self._steering.positions()
-            pace = np.where(np.abs(lack) < self._angle_tolerance, 0.0, np.sign(lack))
+            error = target - self._steering.positions()
+            pace = np.where(np.abs(error) < self._angle_tolerance, 0.0, np.sign(error))
             self._steering.drive(pace * self._steering_speed, ~placed)
 
 

@@ -276,16 +276,16 @@ class JointHardware(SimulatedHardware):
     def _place(self, period: float) -> None:
         """Set joint positions for the next step, at the speed of their commands."""
         put = self._put
-        wanted, before = self._memory.wanted[:, put], self._placed[:, put]
-        good = np.isfinite(wanted)
-        speed = np.zeros(wanted.shape)
+        desired, before = self._memory.desired[:, put], self._placed[:, put]
+        good = np.isfinite(desired)
+        speed = np.zeros(desired.shape)
         if period > 0.0:
             moved = np.isfinite(before) & good
-            speed[moved] = (wanted[moved] - before[moved]) / period
+            speed[moved] = (desired[moved] - before[moved]) / period
             speed[np.abs(speed) > _JUMP] = 0.0
-        self._placed[:, put] = np.where(good, wanted, before)
+        self._placed[:, put] = np.where(good, desired, before)
         self._memory.placed_speed[:, put] = speed
-        self._engine.joints[self._put_names].place(wanted - speed * period, speed, good)
+        self._engine.joints[self._put_names].place(desired - speed * period, speed, good)
 
     # -- restarting ----------------------------------------------------------------
 
