@@ -131,8 +131,17 @@ def _cross_one(a: Floats, b: Floats) -> Floats:
 
 def yaw_of(q: Floats) -> Floats:
     """Return heading about z [rad] in (-pi, pi] of unit quaternions, shape (..., 4)."""
+    if q.size == 4 and q.ndim > 1:
+        return _yaw_of_one(q)
     x, y, z, w = q[..., 0], q[..., 1], q[..., 2], q[..., 3]
     return np.arctan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+
+
+def _yaw_of_one(q: Floats) -> Floats:
+    """Return the heading of a single quaternion, to the bit."""
+    x, y, z, w = q.ravel().tolist()
+    yaw: Floats = np.arctan2((2.0 * (w * z + x * y),), (1.0 - 2.0 * (y * y + z * z),))
+    return yaw.reshape(q.shape[:-1])
 
 
 def roll_pitch_yaw(q: Floats) -> Floats:

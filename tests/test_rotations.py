@@ -70,6 +70,12 @@ def test_many_vectors_turn_alike_in_a_world_alone_and_among_others():
             assert np.array_equal((v @ turns(q[world : world + 1]))[0], together[world])
 
 
+@given(quaternions)
+def test_one_heading_is_to_the_bit_that_of_one_among_many(q):
+    assert yaw_of(q[None]).tobytes() == yaw_of(np.tile(q, (5, 1)))[:1].tobytes()
+    assert yaw_of(q[None, None]).shape == (1, 1)
+
+
 @given(quaternions, arrays(np.float64, 3, elements=numbers))
 def test_what_is_seen_on_the_ground_is_turned_back_by_the_heading(q, v):
     q = q / np.linalg.norm(q)

@@ -40,7 +40,8 @@ def discrete_command(actions: ArrayLike, nworld: int) -> tuple[Floats, Floats]:
     chosen = np.asarray(actions)
     if chosen.shape != (nworld,):
         raise TaskError(f"actions have shape {chosen.shape}, expected ({nworld},)")
-    if chosen.dtype.kind not in "iu" or not 0 <= chosen.min() <= chosen.max() < ACTIONS:
+    whole = chosen.dtype.kind in "iu"
+    if not whole or not 0 <= np.minimum.reduce(chosen) <= np.maximum.reduce(chosen) < ACTIONS:
         raise TaskError(f"actions must be ints from 0 to {ACTIONS - 1}")
     return np.full(nworld, LINEAR), _RATES[chosen]
 

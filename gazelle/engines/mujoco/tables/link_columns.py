@@ -42,9 +42,11 @@ class LinkColumns(ABC):
 class FreeLinks(LinkColumns):
     """Roots of trees that move freely."""
 
-    __slots__ = ("_places", "_quaternions", "_rates")
+    __slots__ = ("_alone", "_places", "_quaternions", "_rates")
 
     def __init__(self, slots: Sequence[LinkSlot], *, single: bool) -> None:
+        self._alone = len(slots) == 1 and not single  # a view, with an axis of one link
+        single = single or self._alone
         free = [slot.free for slot in slots if slot.free is not None]
         self._places = _columns([each.position for each in free], single=single)
         turns = [slice(each.position.start + 3, each.position.stop) for each in free]
@@ -53,14 +55,18 @@ class FreeLinks(LinkColumns):
 
     def placement(self, run: RunningWorlds, worlds: Worlds | None) -> Placement:
         """Return the poses."""
-        q = some_of(run.state.qpos, worlds, self._places)
+        q = self._of(run.state.qpos, worlds, self._places)
         return Placement(q[..., :3].copy(), xyzw_from_wxyz(q[..., 3:]))
 
     def motion(self, run: RunningWorlds, worlds: Worlds | None) -> Motion:
         """Return the velocities; MuJoCo's angular ones are in the link's frame."""
-        v = some_of(run.state.qvel, worlds, self._rates)
-        q = some_of(run.state.qpos, worlds, self._quaternions)
+        v = self._of(run.state.qvel, worlds, self._rates)
+        q = self._of(run.state.qpos, worlds, self._quaternions)
         return Motion(v[..., :3].copy(), rotate(xyzw_from_wxyz(q), v[..., 3:]))
+
+    def _of(self, array: Floats, worlds: Worlds | None, columns: Columns) -> Floats:
+        found = some_of(array, worlds, columns)
+        return found[:, None] if self._alone else found
 
 
 class KinematicLinks(LinkColumns):
