@@ -107,6 +107,23 @@ def test_robots_stand_where_tf_says(node, view):
     assert "robot_description" not in view._faults.content
 
 
+def test_a_robot_is_switched_off_and_a_layout_keeps_it(node, view):
+    put_frames(node, view, base_link=(1.0, 2.0))
+    view._discover()
+    displays = view._displays
+    displays._switches["/robot_description"].value = False
+    view._picture()
+    (robot,) = displays.robots.values()
+    assert robot.extent is None
+    assert not robot._batches._batches[0].handle.visible
+    saved = displays.settings
+    displays._switches["/robot_description"].value = True
+    view._picture()
+    assert robot.extent is not None
+    displays.restore(saved)
+    assert not robot.shown
+
+
 def test_a_robot_that_tf_does_not_know_is_named(node, view):
     view._discover()
     view._picture()

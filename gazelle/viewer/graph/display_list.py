@@ -34,6 +34,7 @@ class DisplayList:
         self._context = context
         self.topics: dict[str, TopicDisplay] = {}
         self.robots = context.robots
+        self._switches: dict[str, Any] = {}  # of robots
         self._refused: dict[str, tuple[str, str]] = {}
         self._wanted: dict[str, Any] = {}
         self._removed: set[str] = set()
@@ -85,8 +86,14 @@ class DisplayList:
     def settings(self) -> dict[str, dict[str, Any] | None]:
         """Settings of the displays, for a saved layout; None for a topic whose display was removed."""
         general = {_FRAMES: {"shown": self._frames.box.value}, _NEW: {"shown": self._new.value}}
+        robots = {name: {"shown": box.value} for name, box in self._switches.items()}
         removed = dict.fromkeys(sorted(self._removed))
-        return general | removed | {topic: each.settings for topic, each in self.topics.items()}
+        return (
+            general
+            | robots
+            | removed
+            | {topic: each.settings for topic, each in self.topics.items()}
+        )
 
     def restore(self, settings: Mapping[str, Any]) -> None:
         """Take the settings of a saved layout, those of topics that are not there yet later."""
@@ -100,6 +107,8 @@ class DisplayList:
             if topic in self._removed:
                 self.remove(topic)
             self._restore(topic)
+        for name in tuple(self._switches):
+            self._restore_robot(name)
         for topic, each in tuple(self._wanted.items()):
             kind = each.get("type") if isinstance(each, dict) else None
             if kind in KINDS and topic not in self.topics:
@@ -134,6 +143,7 @@ class DisplayList:
         ]
         for name in {*self.robots, *self._refused} - set(described):
             self._forget(name)
+            self._switches.pop(name).remove()
         for name in described:
             self._meet(name)
         for topic, display in self.topics.items():
@@ -197,6 +207,12 @@ class DisplayList:
         if text in (None if known is None else known.text, self._refused.get(name, ("",))[0]):
             return
         self._forget(name)
+        if name not in self._switches:
+            with self._folder:
+                box = self._context.gui.add_checkbox(f"Robot {name}", initial_value=True)
+            box.on_update(lambda _event: self._switch_robot(name))
+            self._switches[name] = box
+            self._restore_robot(name)
         prefix = str(node.get_param(f"{name.rpartition('/')[0]}/tf_prefix", "")).strip("/")
         self._count += 1
         root = f"/robots/{self._count}"
@@ -204,6 +220,17 @@ class DisplayList:
             self.robots[name] = robot = DescribedRobot(
                 self._context.scene, root, text, f"{prefix}/" if prefix else ""
             )
+            self._switch_robot(name)
             robot.show(self._context.tree, self._context.fixed)
         except Error as error:
             self._refused[name] = text, f"{name}: {error}"
+
+    def _switch_robot(self, name: str) -> None:
+        """Show or hide a robot, as its switch is."""
+        if name in self.robots:
+            self.robots[name].shown = self._switches[name].value
+
+    def _restore_robot(self, name: str) -> None:
+        wanted = self._wanted.pop(name, None)
+        if isinstance(wanted, dict):
+            self._switches[name].value = wanted.get("shown") is not False

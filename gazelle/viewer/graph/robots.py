@@ -35,6 +35,7 @@ class DescribedRobot:
         prefix: Likewise.
         model: Model of the description.
         placed: Whether tf knows any of its links.
+        shown: Whether the user wants to see it.
 
     Raises:
         Error: The text describes no robot.
@@ -42,7 +43,7 @@ class DescribedRobot:
 
     def __init__(self, scene: SceneApi, root: str, text: str, prefix: str) -> None:
         self.text, self.prefix = text, prefix
-        self.placed = False
+        self.placed, self.shown = False, True
         self.model = model = _model(text)
         self._batches = ShapeBatches(scene, root, World(models=(model,)), np.zeros((1, 3)))
         self._frames = [prefix + link.rpartition("::")[2] for link in self._batches.links]
@@ -51,8 +52,8 @@ class DescribedRobot:
 
     @property
     def extent(self) -> Floats | None:
-        """Lowest and highest corner around the links [m], shape (2, 3); None while tf knows none."""
-        if not self.placed:
+        """Lowest and highest corner around the links [m], shape (2, 3); None if it is not seen."""
+        if not (self.placed and self.shown):
             return None
         at = self._at[0]
         return np.array([at.min(axis=0) - _AROUND, at.max(axis=0) + _AROUND])
@@ -68,7 +69,7 @@ class DescribedRobot:
             known[number] = True
             self._at[0, number], self._turned[0, number] = found.translation, found.rotation
         self.placed = bool(known.any())
-        self._batches.hide(hidden=not self.placed)
+        self._batches.hide(hidden=not (self.placed and self.shown))
         if self.placed:
             self._place_others(int(np.flatnonzero(known)[0]), ~known)
             self._batches.show(self._at, self._turned)

@@ -42,7 +42,7 @@ class _Field:
         """Show a value that changed by itself."""
         before = float(self.input.shown.value)
         if not math.isclose(before, float(value), rel_tol=_CLOSE, abs_tol=_CLOSE):
-            self.input.show(_rounded(value))
+            self.input.show(self._rounded(value))
 
     def begin(self, what: PartProperty, value: Value) -> None:
         """Show another property."""
@@ -51,7 +51,14 @@ class _Field:
         if isinstance(value, float):
             shown.precision = digits = min(_decimals(value), what.decimals)
             shown.step = min(what.step, 10.0 ** (2 - digits))
-        self.input.send(_rounded(value))
+        self.input.send(self._rounded(value))
+
+    def _rounded(self, value: Value) -> Value:
+        """Return a number with as many digits as the field shows, and zero without a sign."""
+        if not isinstance(value, float):
+            return value
+        shown: float = round(float(f"{value:.6g}"), self.input.shown.precision)
+        return shown + 0.0
 
     def _write(self, value: Value) -> None:
         try:
@@ -151,8 +158,3 @@ class PropertyPanel:
 def _decimals(value: float) -> int:
     """Return as many decimals as show four digits of a number, at least three."""
     return 3 if value == 0.0 else min(12, max(3, 3 - math.floor(math.log10(abs(value)))))
-
-
-def _rounded(value: Value) -> Value:
-    """Return a number with as many digits as a field shows."""
-    return float(f"{value:.6g}") if isinstance(value, float) else value
