@@ -271,6 +271,10 @@ class Motions:
 
 
 def wrapped(angle: ArrayLike) -> Floats:
-    """Return the same angle [rad] in (-pi, pi]."""
+    """Return the same angle [rad] in (-pi, pi].
+
+    Unlike `gazelle.navigation.angles.wrapped_all` it has pi for -pi, and other last bits, with which the
+    published fleets were trained.
+    """
     around: Floats = np.pi - np.mod(np.pi - np.asarray(angle, np.float64), 2.0 * np.pi)
     return around

@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from gazelle.array_types import Floats
+from gazelle.navigation.angles import wrapped
 from gazelle.navigation.limits import BaseLimits
 
 Pose2 = tuple[float, float, float]
@@ -14,11 +15,6 @@ Pose2 = tuple[float, float, float]
 _AHEAD = 0.4  # how far along the path the base aims [m]
 _TURN_FIRST = math.radians(50.0)  # headings farther off are turned to on the spot
 _TURNING_GAIN = 2.5  # turning rate for an error of heading [1/s]
-
-
-def wrapped(angle: float) -> float:
-    """Return the same angle between -pi and pi [rad]."""
-    return math.remainder(angle, 2.0 * math.pi)
 
 
 def following_velocity(path: Floats, pose: Pose2, limits: BaseLimits) -> tuple[float, float]:

@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
 from gazelle.errors import SimulationError
+from gazelle.navigation.angles import wrapped
 from gazelle.navigation.avoidance import safe_velocity
-from gazelle.navigation.following import Pose2, following_velocity, turn_to, wrapped
+from gazelle.navigation.following import Pose2, following_velocity, turn_to
 from gazelle.navigation.grid import OccupancyGrid
 from gazelle.navigation.limits import BaseLimits
 from gazelle.navigation.planning import is_blocked, plan

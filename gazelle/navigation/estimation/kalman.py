@@ -14,6 +14,7 @@ from gazelle.argument_checks import checked
 from gazelle.array_types import Bools, Floats
 from gazelle.engines.limits import NANOSECONDS
 from gazelle.errors import Error
+from gazelle.navigation.angles import wrapped_all
 from gazelle.navigation.estimation.control import ControlModel, StampedCommand
 from gazelle.navigation.estimation.motion import (
     ACCELERATION,
@@ -22,7 +23,6 @@ from gazelle.navigation.estimation.motion import (
     POSE,
     SIZE,
     TWIST,
-    wrapped,
 )
 
 PROCESS_NOISE = np.diag(
@@ -156,7 +156,7 @@ class KalmanFilter:
             seconds = _SHORT_STEP_S  # the clock began between the two
         state = self._controlled(before.state, stamp, seconds)
         state, covariance = self._prediction.predict(state, before.covariance, seconds)
-        state[ANGLES] = wrapped(state[ANGLES])
+        state[ANGLES] = wrapped_all(state[ANGLES])
         covariance = covariance + seconds * self._process_noise(state)
         self.estimate = Estimate(state, covariance, stamp, before.command)
 
@@ -194,7 +194,7 @@ class KalmanFilter:
             return False
         innovation = measurement.values[index] - before.state[index]
         angles = (index >= ANGLES.start) & (index < ANGLES.stop)
-        innovation[angles] = wrapped(innovation[angles])
+        innovation[angles] = wrapped_all(innovation[angles])
         noise = _noise(measurement, index)
         across = before.covariance[:, index]
         try:
@@ -206,7 +206,7 @@ class KalmanFilter:
             return False
         gain = across @ inverse
         state = before.state + gain @ innovation
-        state[ANGLES] = wrapped(state[ANGLES])
+        state[ANGLES] = wrapped_all(state[ANGLES])
         # Joseph's form, (I - KH) P (I - KH)' + K R K', with the selection H applied by index.
         left = before.covariance - gain @ before.covariance[index]
         covariance = left - left[:, index] @ gain.T + gain @ noise @ gain.T

@@ -21,11 +21,6 @@ NAMES = (
 )  # fmt: skip
 
 
-def wrapped(angles: Floats) -> Floats:
-    """Return angles [rad] within [-pi, pi]."""
-    return np.asarray(angles - math.tau * np.round(angles / math.tau))
-
-
 def rotation(roll: Any, pitch: Any, yaw: Any) -> Floats:
     """Return Rz(yaw) Ry(pitch) Rx(roll), shape (3, 3, ...), of angles of shape (...)."""
     sr, cr, sp, cp = np.sin(roll), np.cos(roll), np.sin(pitch), np.cos(pitch)

@@ -17,7 +17,7 @@ from gazelle.array_types import Floats
 from gazelle.description import Pose
 from gazelle.engines.limits import NANOSECONDS
 from gazelle.errors import Error
-from gazelle.navigation.estimation.motion import wrapped
+from gazelle.navigation.angles import wrapped_all
 from gazelle_ros.base.parameter_values import Values, fields_of, warn_of_unknown
 from gazelle_ros.base.rotations import mix, slerp
 
@@ -154,7 +154,7 @@ class PoseFusion:
             weight = np.linalg.inv(noise * scale)
             change = values - state[list(index)]
             angles = np.array(index) >= _ROLL
-            change[angles] = wrapped(change[angles])
+            change[angles] = wrapped_all(change[angles])
             information[np.ix_(index, index)] += weight
             vector[list(index)] += weight @ change
         self.covariance = np.asarray(np.linalg.inv(information))

@@ -13,12 +13,12 @@ import numpy as np
 from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
 from gazelle.errors import Error
+from gazelle.navigation.angles import wrapped_all
 from gazelle.navigation.estimation.motion import (
     ANGLES,
     SIZE,
     moved,
     moved_with_jacobian,
-    wrapped,
 )
 
 
@@ -60,7 +60,7 @@ class UnscentedPrediction:
         # Offsets from the centre, as the weights are large and of both signs: sums of the points
         # themselves would lose digits, and angles could not be averaged.
         offsets = points[1:] - centre
-        offsets[:, ANGLES] = wrapped(offsets[:, ANGLES])
+        offsets[:, ANGLES] = wrapped_all(offsets[:, ANGLES])
         mean = self._weight * offsets.sum(axis=0)
         spread = offsets - mean
         after = self._weight * spread.T @ spread + self._centre_weight * np.outer(mean, mean)

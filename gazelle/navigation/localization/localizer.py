@@ -10,7 +10,8 @@ from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
 from gazelle.description.occupancy import FREE, OccupancyMap
 from gazelle.errors import Error
-from gazelle.navigation.following import Pose2, wrapped
+from gazelle.navigation.angles import wrapped
+from gazelle.navigation.following import Pose2
 from gazelle.navigation.localization.odometry_models import check_model, move_particles
 from gazelle.navigation.localization.particle_filter import ParticleFilter, PoseEstimate
 from gazelle.navigation.localization.scan_model import PlanarScan, ScanModel

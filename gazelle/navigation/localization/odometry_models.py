@@ -13,7 +13,8 @@ import numpy as np
 
 from gazelle.array_types import Floats
 from gazelle.errors import Error, did_you_mean
-from gazelle.navigation.following import Pose2, wrapped
+from gazelle.navigation.angles import wrapped, wrapped_all
+from gazelle.navigation.following import Pose2
 
 OdometryModel = Literal["diff", "omni", "diff-corrected", "omni-corrected"]
 MODELS: tuple[OdometryModel, ...] = get_args(OdometryModel)
@@ -91,7 +92,7 @@ def _turn_go_turn(
     heading = poses[:, 2] + turn
     poses[:, 0] += length * np.cos(heading)
     poses[:, 1] += length * np.sin(heading)
-    poses[:, 2] = _wrapped(heading + turn_again)
+    poses[:, 2] = wrapped_all(heading + turn_again)
 
 
 def _move_in_any_direction(
@@ -119,9 +120,4 @@ def _move_in_any_direction(
     aside = sigmas[2] * noise[2]
     poses[:, 0] += along * cos + aside * sin
     poses[:, 1] += along * sin - aside * cos
-    poses[:, 2] = _wrapped(poses[:, 2] + turn + sigmas[1] * noise[1])
-
-
-def _wrapped(angles: Floats) -> Floats:
-    found: Floats = np.remainder(angles + math.pi, 2.0 * math.pi) - math.pi
-    return found
+    poses[:, 2] = wrapped_all(poses[:, 2] + turn + sigmas[1] * noise[1])

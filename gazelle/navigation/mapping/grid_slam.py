@@ -14,7 +14,8 @@ from gazelle.array_types import Floats
 from gazelle.description import Pose
 from gazelle.description.occupancy import FREE, OCCUPIED, UNKNOWN, OccupancyMap
 from gazelle.errors import Error
-from gazelle.navigation.following import Pose2, wrapped
+from gazelle.navigation.angles import wrapped
+from gazelle.navigation.following import Pose2
 from gazelle.navigation.limits import check_maps
 from gazelle.navigation.mapping.scan_matching import ScanMatcher
 from gazelle.navigation.mapping.tiled_maps import SIDE, TiledMaps

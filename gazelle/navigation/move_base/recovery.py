@@ -10,8 +10,9 @@ from typing import Any
 import numpy as np
 
 from gazelle.errors import Error, did_you_mean
+from gazelle.navigation.angles import wrapped
 from gazelle.navigation.costmap import Costmap
-from gazelle.navigation.following import Pose2, wrapped
+from gazelle.navigation.following import Pose2
 from gazelle.navigation.planners.plugins import Velocity
 from gazelle.navigation.planners.rollout import TrajectoryRollout
 from gazelle_ros.base.parameter_values import Values, value_of

@@ -11,8 +11,9 @@ import numpy as np
 from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
 from gazelle.errors import Error
+from gazelle.navigation.angles import wrapped
 from gazelle.navigation.costmap import Costmap
-from gazelle.navigation.following import Pose2, wrapped
+from gazelle.navigation.following import Pose2
 from gazelle.navigation.planners.following_plan import PlanFollower
 from gazelle.navigation.planners.oscillation import OscillationGuard
 from gazelle.navigation.planners.plugins import Values, Velocity

@@ -11,9 +11,10 @@ import numpy as np
 from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Floats32
 from gazelle.errors import Error
+from gazelle.navigation.angles import wrapped, wrapped_all
 from gazelle.navigation.costmap import Costmap
 from gazelle.navigation.costmap.values import NO_INFORMATION
-from gazelle.navigation.following import Pose2, wrapped
+from gazelle.navigation.following import Pose2
 from gazelle.navigation.planners.navfn import PotentialPlanner
 from gazelle.navigation.planners.plugins import Values
 from gazelle.navigation.planners.potential import PotentialField
@@ -124,7 +125,7 @@ class GlobalPlanner(PotentialPlanner):
         if len(plan) < 3:
             return plan
         if mode in _SIDES:
-            plan[:-1, 2] = _turned(self._ahead(plan)[:-1], _SIDES[mode])
+            plan[:-1, 2] = wrapped_all(self._ahead(plan)[:-1] + _SIDES[mode])
         if mode in {_INTERPOLATE, _FORWARD_THEN_INTERPOLATE}:
             first = 0 if mode == _INTERPOLATE else _begin_of_last_line(plan[:, 2])
             plan[0, 2] = start[2]
@@ -152,10 +153,4 @@ def _interpolate(plan: Floats) -> None:
     """Set headings between those of the first and the last pose."""
     first, last = plan[0, 2], plan[-1, 2]
     turn = wrapped(last - first)
-    plan[:-1, 2] = _turned(first + turn * np.linspace(0.0, 1.0, len(plan))[:-1], 0.0)
-
-
-def _turned(headings: Floats, angle: float) -> Floats:
-    """Return headings turned by an angle, between -pi and pi."""
-    turned: Floats = np.remainder(headings + angle + math.pi, 2.0 * math.pi) - math.pi
-    return turned
+    plan[:-1, 2] = wrapped_all(first + turn * np.linspace(0.0, 1.0, len(plan))[:-1])

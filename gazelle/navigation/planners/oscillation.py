@@ -7,7 +7,8 @@ import math
 import numpy as np
 
 from gazelle.array_types import Bools, Floats
-from gazelle.navigation.following import Pose2, wrapped
+from gazelle.navigation.angles import wrapped
+from gazelle.navigation.following import Pose2
 
 _AXES = 3
 

@@ -7,7 +7,8 @@ import math
 import numpy as np
 
 from gazelle.array_types import Floats
-from gazelle.navigation.following import Pose2, wrapped
+from gazelle.navigation.angles import wrapped
+from gazelle.navigation.following import Pose2
 
 
 def composed(first: Pose2, second: Pose2) -> Pose2:

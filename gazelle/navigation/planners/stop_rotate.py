@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 
 from gazelle.array_types import Floats
-from gazelle.navigation.following import Pose2, wrapped
+from gazelle.navigation.angles import wrapped
+from gazelle.navigation.following import Pose2
 from gazelle.navigation.planners.plugins import STOP, Values, Velocity
 from gazelle_ros.base.parameter_values import value_of
 

@@ -10,10 +10,11 @@ import numpy as np
 from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
 from gazelle.errors import Error
+from gazelle.navigation.angles import wrapped
 from gazelle.navigation.costmap import Costmap
 from gazelle.navigation.costmap.distances import squared_distances
 from gazelle.navigation.costmap.values import LETHAL
-from gazelle.navigation.following import Pose2, wrapped
+from gazelle.navigation.following import Pose2
 from gazelle.navigation.planners.following_plan import PlanFollower
 from gazelle.navigation.planners.plugins import STOP, Values, Velocity
 from gazelle.navigation.planners.rollout import TrajectoryRollout

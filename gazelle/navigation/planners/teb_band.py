@@ -15,7 +15,8 @@ from typing import Final
 import numpy as np
 
 from gazelle.array_types import Floats
-from gazelle.navigation.following import Pose2, wrapped
+from gazelle.navigation.angles import wrapped, wrapped_all
+from gazelle.navigation.following import Pose2
 from gazelle.navigation.planners.planar import composed
 from gazelle.navigation.planners.teb_cost import Band, BandCost
 from gazelle.navigation.planners.teb_settings import TebSettings
@@ -57,7 +58,7 @@ def first_band(plan: Floats, start: Pose2, settings: TebSettings) -> Band:
     poses[:, 2] = ahead
     poses[0], poses[-1] = start, plan[-1]
     times = np.maximum(np.diff(places) / s.max_vel_x, _SHORTEST_S)
-    turns = np.abs(np.remainder(np.diff(poses[:, 2]) + math.pi, 2.0 * math.pi) - math.pi)
+    turns = np.abs(wrapped_all(np.diff(poses[:, 2])))
     return Band(poses, np.maximum(times, turns / s.max_vel_theta))
 
 

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gazelle.array_types import Floats, Indices
+from gazelle.navigation.angles import wrapped_all
 from gazelle.navigation.planners.teb_settings import TebFootprint, TebSettings
 
 _NO_OBSTACLE = 1e3  # Distance where there is none [m]
@@ -64,7 +65,7 @@ class Band:
     def velocities(self) -> tuple[Floats, Floats]:
         """Return forward [m/s] and turning [rad/s] velocities of all intervals."""
         step = np.diff(self.poses, axis=0)
-        turn = np.remainder(step[:, 2] + math.pi, 2.0 * math.pi) - math.pi
+        turn = wrapped_all(step[:, 2])
         middle = self.poses[:-1, 2] + 0.5 * turn
         ahead = step[:, 0] * np.cos(middle) + step[:, 1] * np.sin(middle)
         return ahead / self.times, turn / self.times
@@ -117,7 +118,7 @@ class BandCost:
         """Return all residuals, in the order of ``first_poses``; the cost is the sum of squares."""
         s, times = self.settings, band.times
         step = np.diff(band.poses, axis=0)
-        turn = np.remainder(step[:, 2] + math.pi, 2.0 * math.pi) - math.pi
+        turn = wrapped_all(step[:, 2])
         middle = band.poses[:-1, 2] + 0.5 * turn
         cos, sin = np.cos(middle), np.sin(middle)
         ahead, aside = step[:, 0] * cos + step[:, 1] * sin, step[:, 1] * cos - step[:, 0] * sin

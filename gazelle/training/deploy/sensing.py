@@ -11,6 +11,7 @@ from gazelle.argument_checks import checked
 from gazelle.array_types import Bools, Floats, Floats32
 from gazelle.envs.contract import PolicyContract, ScanRule
 from gazelle.errors import TaskError
+from gazelle.navigation.angles import wrapped_all
 
 _KINDS = {
     "goal_heading",
@@ -57,7 +58,7 @@ class ScanReading:
         """
         steps = np.arange(len(self.ranges), dtype=np.float64)
         angles: Floats = self.angle_min + turned + self.angle_increment * steps
-        return _wrapped(angles)
+        return wrapped_all(angles)
 
 
 @dataclass(frozen=True, slots=True)
@@ -152,7 +153,7 @@ def sampled(scan: ScanReading, rule: ScanRule, rays: int, *, turned: float = 0.0
         Ranges [m] that a float32 holds exactly, shape (rays,).
     """
     angles = np.linspace(rule.first_angle, rule.last_angle, rays)
-    away = np.abs(_wrapped(scan.angles(turned)[None, :] - angles[:, None]))
+    away = np.abs(wrapped_all(scan.angles(turned)[None, :] - angles[:, None]))
     spacing = abs(rule.last_angle - rule.first_angle) / max(rays - 1, 1)
     usable = ~scan.failed()[None, :] & (away <= max(0.5 * spacing, 1e-6))
     ray = np.where(usable, away, np.inf).argmin(axis=1)
@@ -172,13 +173,4 @@ def distance_to_goal(odometry: OdometryReading, goal: tuple[float, float]) -> fl
 def heading_to_goal(odometry: OdometryReading, goal: tuple[float, float]) -> float:
     """Return the angle from straight ahead to the goal, left positive [rad], in [-pi, pi]."""
     angle = math.atan2(goal[1] - odometry.y, goal[0] - odometry.x) - odometry.yaw
-    return float(_wrapped(np.array(angle)))
-
-
-def _wrapped(angles: Floats) -> Floats:
-    """Return angles in [-pi, pi]; those in it stay as they are, to the last bit."""
-    over = np.abs(angles) > np.pi
-    wrapped: Floats = np.where(
-        over, angles - 2.0 * np.pi * np.round(angles / (2.0 * np.pi)), angles
-    )
-    return wrapped
+    return float(wrapped_all(np.array(angle)))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -15,7 +14,6 @@ from gazelle.navigation.estimation.motion import (
     moved,
     moved_with_jacobian,
     rotation,
-    wrapped,
 )
 from gazelle.rotations import multiply, roll_pitch_yaw, rotate, unit
 
@@ -63,8 +61,3 @@ def test_constant_acceleration_along_a_heading():
     after, _ = moved_with_jacobian(state, 2.0)
     np.testing.assert_allclose(after[POSITION], [0.0, 5.0, 0.0], atol=1e-12)
     np.testing.assert_allclose(after[LINEAR], [3.0, 0.0, 0.0])
-
-
-@pytest.mark.parametrize(("angle", "within"), [(3.5, 3.5 - 2 * np.pi), (-20.0, -20.0 + 6 * np.pi)])
-def test_angles_are_wrapped(angle, within):
-    assert wrapped(np.array([angle]))[0] == pytest.approx(within)
