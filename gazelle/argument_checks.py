@@ -63,11 +63,12 @@ def checked(
         error: Raised for such an argument, and for arrays of shapes that do not fit.
         most: Greatest magnitude of a float.
         after: Look at the arguments only after the call has failed, for what is called each step:
-            that takes 0.1 us. Numbers pass that can be computed with, such as NaN.
+            that takes 0.1 us. Numbers pass that can be computed with, such as NaN. Constructors
+            check first nevertheless, but for those of measurements.
     """
 
-    def checking(function: Any) -> Any:
-        return _checking(function, error, most, after=after)
+    def checking(function: Any, *, first: bool = False) -> Any:
+        return _checking(function, error, most, first=first or not after, after=after)
 
     def decorate(decorated: Decorated) -> Decorated:
         if isinstance(decorated, type):
@@ -117,34 +118,38 @@ def indices(what: str, selection: Any, count: int, error: type[Error]) -> Indice
     return rows.astype(np.intp, copy=False)
 
 
-def _decorate_members(kind: type, checking: Callable[[Any], Any]) -> None:
+def _decorate_members(kind: type, checking: Callable[..., Any]) -> None:
+    given = not _has_arrays(kind)
     for name, member in list(vars(kind).items()):
         if name not in ("__init__", "__getitem__") and (name[0] == "_" or name in _TRUSTED):
             continue
         if inspect.isfunction(member) and member not in _WRAPPED:
-            setattr(kind, name, checking(member))
+            setattr(kind, name, checking(member, first=given and name == "__init__"))
         elif isinstance(member, classmethod | staticmethod):
             setattr(kind, name, type(member)(checking(member.__func__)))
         elif isinstance(member, property) and member.fset is not None:
             setattr(kind, name, member.setter(checking(member.fset)))
 
 
-def _checking(function: Any, error: type[Error], most: float, *, after: bool) -> Any:
+def _checking(function: Any, error: type[Error], most: float, *, first: bool, after: bool) -> Any:
     parameters = inspect.signature(function).parameters
-    look = _look_at(parameters, error, most)
+    passed = {"seed"}
+    if function.__name__ == "__init__":
+        passed |= {"self", *(n for n, each in parameters.items() if each.annotation == "Values")}
+    look = _look_at(parameters, error, most, passed)
     arrays = any(_TAKES_ARRAYS.search(str(each.annotation)) for each in parameters.values())
     failures: tuple[type[Exception], ...] = _OF_VALUES if after else _OF_SHAPES if arrays else ()
 
     @functools.wraps(function)
     def call(*positional: Any, **named: Any) -> Any:
-        if not after:
+        if first:
             look(positional, named)
         try:
             return function(*positional, **named)
         except Error:
             raise
         except failures as failure:
-            if after:
+            if not first:
                 look(positional, named)
             raise _explained(function, failure, error) from failure
 
@@ -153,9 +158,13 @@ def _checking(function: Any, error: type[Error], most: float, *, after: bool) ->
 
 
 def _look_at(
-    parameters: Mapping[str, inspect.Parameter], error: type[Error], most: float
+    parameters: Mapping[str, inspect.Parameter], error: type[Error], most: float, passed: set[str]
 ) -> Callable[..., None]:
-    """Return what raises an error for an argument that cannot be."""
+    """Return what raises an error for an argument that cannot be.
+
+    Some are passed over: a seed, which is any int, also one of 128 bits, and in a constructor an
+    object without attributes yet and parameters that its settings check.
+    """
     order = [name for name, each in parameters.items() if each.kind != each.KEYWORD_ONLY]
     rules = {
         name: (
@@ -168,7 +177,7 @@ def _look_at(
 
     def look(positional: tuple[Any, ...], named: Mapping[str, Any]) -> None:
         for name, value in (*zip(order, positional, strict=False), *named.items()):
-            if value is None or name == "seed":  # any int, also one of 128 bits
+            if value is None or name in passed:
                 continue
             limit, kind = rules.get(name, rest)
             fault = _fault(value, limit) or (_fault_of(kind, value) if kind else None)
@@ -250,10 +259,14 @@ def _number_fields(kind: type) -> tuple[str, ...]:
     """
     if isinstance(getattr(kind, "numbers", None), property):
         return ("numbers",)
-    members = fields(kind) if is_dataclass(kind) else ()
-    if any(_ARRAY.search(str(each.type)) for each in members):
+    if not is_dataclass(kind) or _has_arrays(kind):
         return ()
-    return tuple(each.name for each in members if not _is_endless(each.default))
+    return tuple(each.name for each in fields(kind) if not _is_endless(each.default))
+
+
+def _has_arrays(kind: type) -> bool:
+    members = fields(kind) if is_dataclass(kind) else ()
+    return any(_ARRAY.search(str(each.type)) for each in members)
 
 
 def _fault_of(kind: str, value: Any) -> str | None:

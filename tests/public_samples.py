@@ -22,7 +22,7 @@ import wrong_calls
 import gazelle
 import gazelle.builders
 import gazelle_ros as ros
-from gazelle import Error, Simulation, clients, planning, stage
+from gazelle import Error, Simulation, clients, envs, planning, stage
 from gazelle.control import EFFORT, JointCommandInterface, JointStateInterface
 from gazelle.description import Box, OccupancyMap, Pose
 from gazelle.engines import planar
@@ -35,7 +35,7 @@ from gazelle.navigation import costmap, planners
 from gazelle.navigation.estimation import ExtendedPrediction
 from gazelle.sensors import View, look_at
 from gazelle.streams import Stream
-from gazelle.training import Actor
+from gazelle.training import Actor, deploy
 from gazelle_ros import bags
 from gazelle_ros import tf as frames
 from gazelle_ros.msgs import move_base_msgs, std_msgs, std_srvs, tf2_msgs
@@ -83,6 +83,8 @@ PACKAGES = {
         name: f"gazelle.navigation.{name}"
         for name in ("costmap", "estimation", "localization", "mapping", "planners")
     },
+    "deploy": "gazelle.training.deploy",
+    "move_base": "gazelle.navigation.move_base",
     "mujoco": "gazelle.engines.mujoco",
     "planar": "gazelle.engines.planar",
     "ros": "gazelle_ros",
@@ -281,6 +283,14 @@ def policy() -> Actor:
     )
 
 
+def contract() -> envs.PolicyContract:
+    """Return the contract of a policy that drives."""
+    action = envs.ActionRule(
+        kind="velocity", low=(0.0,), high=(1.0,), at_low=(0, 0), at_high=(1, 0)
+    )
+    return envs.PolicyContract(action=action, control_period=0.1)
+
+
 TABLE: dict[str, Callable[[Samples], Any]] = {
     "Simulation": lambda s: s.stage.simulation if s.called in IN_THE_PLANE else s.simulation,
     "Node": lambda s: s.node,
@@ -340,6 +350,7 @@ TABLE: dict[str, Callable[[Samples], Any]] = {
     "Point": lambda s: (0.0, 1.0),
     "Octree": lambda s: Octree(0.1, b""),
     "Actor": lambda s: policy(),
+    "Policy": lambda s: deploy.Policy(policy(), contract()),
     "TriangleMesh": lambda s: triangles.box((1.0, 1.0, 1.0)),
     "PlanningScene": lambda s: planning.PlanningScene(arms.arm("fetch")),
     "Group": lambda s: planning.Group(s.arm, "arm"),

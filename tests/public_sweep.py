@@ -71,6 +71,7 @@ HOOKS = {
     "act",
     "shutdown_requested",
     "compute_reward",
+    "decide",
     "draw_goals",
     "join",
     "observe",

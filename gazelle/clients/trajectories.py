@@ -19,6 +19,7 @@ _LOOK_S = 0.01
 _ACTION = "control_msgs/FollowJointTrajectory"
 
 
+@checked(ClientError)
 @dataclass(frozen=True, slots=True)
 class JointWaypoint:
     """Desired joint positions at a time.

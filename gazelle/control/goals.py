@@ -12,8 +12,10 @@ from typing import Any, Generic, TypeVar
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Worlds
 from gazelle.control.ports import Serializer, rows_of
+from gazelle.errors import ControlError
 
 G = TypeVar("G")
 
@@ -159,6 +161,7 @@ class Goal(Generic[G]):
             listener(self)
 
 
+@checked(ControlError, after=True)
 class ActionPort(Generic[G]):
     """Takes goals: what ROS calls an action server.
 

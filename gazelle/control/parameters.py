@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from gazelle.argument_checks import checked
 from gazelle.errors import ControlError, did_you_mean
 from gazelle_ros.base.real_numbers import real
 
@@ -56,6 +57,7 @@ class ControllerParameters(Mapping[str, Any]):
             raise self.wrong(path, "a namespace", found)
         return ControllerParameters(found, f"{self.place}/{path}")
 
+    @checked(ControlError)
     def number(self, path: str, default: float | None = None) -> float:
         """Return an int or a float.
 

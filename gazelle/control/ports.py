@@ -14,7 +14,7 @@ from typing import Any, Generic, Protocol, TypeVar
 
 import numpy as np
 
-from gazelle.argument_checks import world_indices
+from gazelle.argument_checks import checked, world_indices
 from gazelle.array_types import Worlds
 from gazelle.errors import ControlError, did_you_mean
 
@@ -167,6 +167,7 @@ class QueryPort(Generic[Q, R]):
         return self._call(lambda: self._answer(question))
 
 
+@checked(ControlError)
 @dataclass(frozen=True, slots=True)
 class TunableValue:
     """A number or flag of a ``TuningPort``.

@@ -7,14 +7,17 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.argument_checks import checked
 from gazelle.description.pose import Pose
 from gazelle.description.source import Source
+from gazelle.errors import FormatError
 
 FREE = 0
 OCCUPIED = 100
 UNKNOWN = -1
 
 
+@checked(FormatError)
 @dataclass(frozen=True, slots=True, eq=False)
 class OccupancyMap:
     """A grid of square cells.

@@ -26,6 +26,7 @@ _GAMMA = 1.35  # lifts the shadows to what a screen shows well
 _OFFSET = 1e-4  # where shadow rays start above a surface [m]
 
 
+@checked(SimulationError)
 @dataclass(frozen=True, slots=True)
 class View:
     """From where and how a picture is taken.

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from gazelle.argument_checks import checked
 from gazelle.engines.limits import NANOSECONDS, physics_step
 from gazelle.errors import SimulationError
@@ -109,6 +111,8 @@ class Schedule:
 
     @rate.setter
     def rate(self, value: float) -> None:
+        if isinstance(value, float) and math.isnan(value):
+            raise SimulationError("a rate must be a number, not NaN")
         self._rate = min(max(value, 1.0 / NANOSECONDS), NANOSECONDS) if value > 0.0 else 0.0
 
     @property

@@ -8,9 +8,11 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Worlds
 from gazelle.description import Sensor
 from gazelle.engines.limits import NANOSECONDS
+from gazelle.errors import SimulationError
 from gazelle.sensors import GroupedModel, SensorModel
 from gazelle.simulation.clock import Schedule
 from gazelle.simulation.inputs import chosen, is_ascending, one_world
@@ -60,6 +62,7 @@ class SampledSensor:
         """True if it measures at its rate."""
         return self._awake or bool(self._listeners)
 
+    @checked(SimulationError)
     @between_steps
     def slow_to(self, rate: float) -> None:
         """Measure no more often than a rate [Hz]; 0 changes nothing."""

@@ -18,6 +18,7 @@ _COLUMNS = ("return", "length", "goals", "attempts", "collisions", "timeouts")
 _ENDS = {"success_rate": "goals", "collision_rate": "collisions", "timeout_rate": "timeouts"}
 
 
+@checked(TaskError)
 @dataclass(frozen=True, slots=True)
 class SuccessRate:
     """Rate of an event, with a 95 % confidence interval."""

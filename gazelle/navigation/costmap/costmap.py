@@ -118,6 +118,7 @@ class Costmap:
         """Cost of unknown cells."""
         return NO_INFORMATION if self.track_unknown else FREE_SPACE
 
+    @checked(Error)
     def resize(
         self, rows: int, columns: int, resolution: float, origin: tuple[float, float]
     ) -> None:
@@ -209,6 +210,7 @@ class Costmap:
         for layer in self.layers:
             layer.reset()
 
+    @checked(Error)
     def clear(
         self, pose: Pose2, side: float, names: Sequence[str], *, outside: bool = True
     ) -> None:

@@ -19,7 +19,7 @@ def _six(value: float) -> Floats:
     return np.full(6, value)
 
 
-@checked(Error, after=True)
+@checked(Error)
 @dataclass(frozen=True, slots=True)
 class ControlModel:
     """Response of a robot to commands, for three linear and three angular velocities each.

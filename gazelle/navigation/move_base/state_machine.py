@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
 from gazelle.errors import Error
 from gazelle.navigation.following import Pose2
@@ -171,6 +172,7 @@ class MoveBase:
             return step
         return MoveStep(step.velocity, step.outcome, step.text, plan, step.recovery)
 
+    @checked(Error)
     def make_plan(self, start: Pose2, goal: Pose2, tolerance: float) -> Floats:
         """Return a plan without moving, or one to a place nearby.
 

@@ -104,7 +104,7 @@ class GlobalPlanner(PotentialPlanner):
         prices: Floats32 = table.astype(np.float32)
         return prices
 
-    def spread(
+    def _spread(
         self,
         field: PotentialField,
         prices: Floats32,
@@ -115,7 +115,7 @@ class GlobalPlanner(PotentialPlanner):
     ) -> None:
         """Find potentials, by A* where ``use_dijkstra`` is false; see `PotentialPlanner`."""
         if self.dijkstra:
-            super().spread(field, prices, ends, least, everywhere=everywhere)
+            super()._spread(field, prices, ends, least, everywhere=everywhere)
         else:
             field.seek(prices, *ends, float(self.settings.neutral_cost), self.quadratic)
 

@@ -56,6 +56,7 @@ class PotentialPlanner(GlobalPlannerPlugin):
         table[NO_INFORMATION] = _UNKNOWN if self.allow_unknown else 0.0
         return table.astype(np.float32)
 
+    @checked(Error)
     def make_plan(self, start: Pose2, goal: Pose2, tolerance: float | None = None) -> Floats:
         """Return the cheapest path; see `GlobalPlannerPlugin`."""
         first = self.costmap.cell_of(start[0], start[1])
@@ -69,7 +70,7 @@ class PotentialPlanner(GlobalPlannerPlugin):
         field = self._prepared()
         reach = self.tolerance if tolerance is None else tolerance
         least = float(table[table > 0.0].min())
-        self.spread(field, prices, (first, last), least, everywhere=reach > 0.0)
+        self._spread(field, prices, (first, last), least, everywhere=reach > 0.0)
         if self.on_potential is not None:
             self.on_potential(field.values)
         end = last if reach <= 0.0 else self._nearest(field, last, reach)
@@ -80,7 +81,7 @@ class PotentialPlanner(GlobalPlannerPlugin):
             return NO_PLAN
         return self._posed(cells[::-1], start, goal, exact=end == last)
 
-    def spread(
+    def _spread(
         self,
         field: PotentialField,
         prices: Floats32,

@@ -11,6 +11,7 @@ from gazelle.argument_checks import checked
 from gazelle.errors import FormatError
 
 
+@checked(FormatError)
 @dataclass(frozen=True, slots=True)
 class GoalPlace:
     """A place to go to."""

@@ -9,6 +9,8 @@ import threading
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
+from gazelle.argument_checks import checked
+from gazelle.errors import TaskError
 from gazelle.training.deploy.frames import GoalFrames
 from gazelle.training.deploy.goals import GoalPlace, GoalResult
 from gazelle.training.deploy.guarding import Guarded, GuardLostError
@@ -32,6 +34,7 @@ _MASTER_MISSES = 2
 _FAREWELLS = 5
 
 
+@checked(TaskError, after=True)
 class DeployNode(Closeable):
     """A policy as a ROS 1 node.
 
