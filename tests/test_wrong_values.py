@@ -45,7 +45,7 @@ def world():
 
 def skipped(handle, name):
     kind = public_handles.kind_of(handle).__name__
-    return kind == "Loads" or name in ENDING or name in OWN.get(kind, ())
+    return kind == "AppliedWrenches" or name in ENDING or name in OWN.get(kind, ())
 
 
 def good_values(sim):

@@ -220,8 +220,8 @@ class Pose:
         return (Pose.from_quaternion, (self._position, self._quaternion))
 
 
-def _refused(wanted: str, error: Exception) -> FormatError:
-    return FormatError(f"a pose takes {wanted}: {error}")
+def _refused(expected: str, error: Exception) -> FormatError:
+    return FormatError(f"a pose takes {expected}: {error}")
 
 
 def multiply(a: Quaternion, b: Quaternion) -> Quaternion:

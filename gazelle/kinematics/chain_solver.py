@@ -116,7 +116,7 @@ class ChainSolver:
         Returns:
             Index of the start that led there, -1 if none did.
         """
-        wanted: cython.double[::1] = np.ascontiguousarray(target, np.float64)
+        goal: cython.double[::1] = np.ascontiguousarray(target, np.float64)
         begin: cython.double[:, ::1] = np.ascontiguousarray(starts, np.float64)
         out: cython.double[::1] = variables
         given: cython.double[::1] = np.ascontiguousarray(weights, np.float64)
@@ -133,7 +133,7 @@ class ChainSolver:
                 self._variables[self._columns[k]] = min(
                     max(begin[attempt, k], self._lower[k]), self._upper[k]
                 )
-            if self._descend(wanted, near, straight):
+            if self._descend(goal, near, straight):
                 for k in range(self._size):
                     out[self._columns[k]] = self._variables[self._columns[k]]
                 return int(attempt)
@@ -155,7 +155,7 @@ class ChainSolver:
             weights: As `solve` takes them, shape (6,).
             tolerance: Of distance [m] and angle [rad], where a descent ends.
         """
-        wanted: cython.double[:, ::1] = np.ascontiguousarray(targets, np.float64)
+        goal: cython.double[:, ::1] = np.ascontiguousarray(targets, np.float64)
         out: cython.double[:, ::1] = variables
         given: cython.double[::1] = np.ascontiguousarray(weights, np.float64)
         near: cython.double = tolerance[0]
@@ -171,7 +171,7 @@ class ChainSolver:
                 self._variables[self._columns[k]] = min(
                     max(out[row, self._columns[k]], self._lower[k]), self._upper[k]
                 )
-            self._approach(wanted[row], near, straight)
+            self._approach(goal[row], near, straight)
             for k in range(self._size):
                 out[row, self._columns[k]] = self._nearest[k]
 
@@ -179,14 +179,14 @@ class ChainSolver:
     @cython.nogil
     @cython.exceptval(check=False)
     def _descend(
-        self, wanted: cython.double[::1], near: cython.double, straight: cython.double
+        self, goal: cython.double[::1], near: cython.double, straight: cython.double
     ) -> cython.bint:
         """Descend from the variables towards the pose; returns whether it is reached."""
         best: cython.double = -1.0
         since: cython.int = 0
         step: cython.int
         for step in range(self._steps + 1):
-            square: cython.double = self._look(wanted)
+            square: cython.double = self._look(goal)
             if self._moved <= near and self._turned <= straight:
                 return True
             if best < 0.0 or square < _BETTER * best:
@@ -202,7 +202,7 @@ class ChainSolver:
     @cython.nogil
     @cython.exceptval(check=False)
     def _approach(
-        self, wanted: cython.double[::1], near: cython.double, straight: cython.double
+        self, goal: cython.double[::1], near: cython.double, straight: cython.double
     ) -> cython.void:
         """Descend towards the pose, and keep the nearest variables in ``_nearest``."""
         best: cython.double = -1.0
@@ -211,7 +211,7 @@ class ChainSolver:
         k: cython.int
         while left >= 0:
             left -= 1
-            square: cython.double = self._look(wanted)
+            square: cython.double = self._look(goal)
             since += 1
             if best < 0.0 or square < best:
                 if best < 0.0 or square < _BETTER * best:
@@ -227,7 +227,7 @@ class ChainSolver:
     @cython.cfunc
     @cython.nogil
     @cython.exceptval(check=False)
-    def _look(self, wanted: cython.double[::1]) -> cython.double:
+    def _look(self, goal: cython.double[::1]) -> cython.double:
         """Find frames, Jacobian and error; returns the square of the weighted error."""
         k: cython.int
         joint: cython.int
@@ -237,7 +237,7 @@ class ChainSolver:
         if self._path.shape[0] > 0:
             joint = self._path[self._path.shape[0] - 1]
         compose(self._frames, joint + 1, self._offset, 0, self._tip, 0)
-        self._find_error(wanted)
+        self._find_error(goal)
         self._moved = self._turned = 0.0
         square: cython.double = 0.0
         for k in range(6):
@@ -254,17 +254,17 @@ class ChainSolver:
     @cython.cfunc
     @cython.nogil
     @cython.exceptval(check=False)
-    def _find_error(self, wanted: cython.double[::1]) -> cython.void:
+    def _find_error(self, goal: cython.double[::1]) -> cython.void:
         """Compute the missing translation, and the rotation vector, along the root's axes."""
         i: cython.int
         j: cython.int
         for i in range(3):
-            self._error[i] = wanted[9 + i] - self._tip[0, 9 + i]
+            self._error[i] = goal[9 + i] - self._tip[0, 9 + i]
             for j in range(3):
                 self._turn[3 * i + j] = (
-                    wanted[3 * i] * self._tip[0, 3 * j]
-                    + wanted[3 * i + 1] * self._tip[0, 3 * j + 1]
-                    + wanted[3 * i + 2] * self._tip[0, 3 * j + 2]
+                    goal[3 * i] * self._tip[0, 3 * j]
+                    + goal[3 * i + 1] * self._tip[0, 3 * j + 1]
+                    + goal[3 * i + 2] * self._tip[0, 3 * j + 2]
                 )
         x: cython.double = 0.5 * (self._turn[7] - self._turn[5])
         y: cython.double = 0.5 * (self._turn[2] - self._turn[6])

@@ -49,7 +49,7 @@ class Buoyancy(ModelPlugin):
             lever = rotate(place.quaternion, np.broadcast_to(centre, place.position.shape))
             lever = place.position + lever - engine.links[name].centre()
             force = -self._density * volume * gravity
-            self._simulation.loads.hold("buoyancy", name, force, cross(lever, force))
+            self._simulation.applied_wrenches.hold("buoyancy", name, force, cross(lever, force))
 
 
 def _displaced(link: LinkHandle) -> tuple[float, np.ndarray[Any, np.dtype[np.float64]]]:

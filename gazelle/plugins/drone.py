@@ -138,7 +138,7 @@ class Drone(ModelPlugin):
         force = np.zeros((len(share), 3))
         force[:, 2] = share * thrust
         turn = place.quaternion
-        self._simulation.loads.hold(
+        self._simulation.applied_wrenches.hold(
             "drone",
             self._link.name,
             rotate(turn, force),

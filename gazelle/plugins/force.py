@@ -20,7 +20,7 @@ class Force(ModelPlugin):
         """Read the tags, find the body, open the port."""
         self._link, _ = robot.frame(parameters.require("bodyName", str))
         topic = parameters.require("topicName", str)
-        self._loads = robot.simulation.loads
+        self._applied_wrenches = robot.simulation.applied_wrenches
         self._name = f"force {topic}"
         self._force, self._torque = np.zeros((2, robot.simulation.nworld, 3))
         robot.inputs[topic.strip("/")] = Input(
@@ -34,7 +34,7 @@ class Force(ModelPlugin):
     def _push(self, push: Push, worlds: Worlds | None) -> None:
         rows = slice(None) if worlds is None else worlds
         self._force[rows], self._torque[rows] = push.force, push.torque
-        self._loads.hold(self._name, self._link.name, self._force, self._torque)
+        self._applied_wrenches.hold(self._name, self._link.name, self._force, self._torque)
 
     def reset(self, worlds: Worlds | None) -> None:
         """Remove the force."""

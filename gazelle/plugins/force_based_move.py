@@ -70,7 +70,7 @@ class ForceBasedMove(ModelPlugin):
         gain = np.minimum(self._turning_gain, inertia / step)
         torque = np.zeros_like(force)
         torque[:, 2] = gain * (self._command.angular[:, 2] - motion.angular[:, 2])
-        self._simulation.loads.hold("force_based_move", self._link.name, force, torque)
+        self._simulation.applied_wrenches.hold("force_based_move", self._link.name, force, torque)
         if self._schedule is not None and self._schedule.is_due(self._clock.now_ns):
             self._schedule.done(self._clock.now_ns)
             self._odometry.publish()

@@ -45,6 +45,8 @@ class ForceTorqueSensor(Noisy, Publishing):
         wrench = self._engine.joints[self._joint].wrench()
         back = conjugate(self._link.placement().quaternion)
         # The engine gives what the child exerts on the parent; the original what it bears.
-        felt = np.concatenate((rotate(back, -wrench.force), rotate(back, -wrench.torque)), axis=1)
-        felt = self._noise.apply(felt, 0.0)
-        return WrenchValue(self._clock.now_ns, felt[:, :3], felt[:, 3:])
+        measured = np.concatenate(
+            (rotate(back, -wrench.force), rotate(back, -wrench.torque)), axis=1
+        )
+        measured = self._noise.apply(measured, 0.0)
+        return WrenchValue(self._clock.now_ns, measured[:, :3], measured[:, 3:])

@@ -70,7 +70,7 @@ class HandOfGod(ModelPlugin):
         # Twice the vector part, the short way round, is the turn for small angles.
         torque = angular * 2.0 * turn[:, :3] * np.where(turn[:, 3:] < 0.0, -1.0, 1.0)
         torque -= 2.0 * np.sqrt(angular * inertia) * motion.angular
-        self._simulation.loads.hold(
+        self._simulation.applied_wrenches.hold(
             "hand_of_god", name, np.where(known, force, 0.0), np.where(known, torque, 0.0)
         )
 

@@ -171,5 +171,7 @@ class HectorMagnetic(OnBody):
         clock = self._simulation.clock
         place = placed(self._frame)
         field = np.broadcast_to(self._field, place.position.shape)
-        felt = rotate(conjugate(place.quaternion), field)
-        return self._kind(clock.now_ns, self._error.apply(felt, self._interval.since(clock.now_ns)))
+        measured = rotate(conjugate(place.quaternion), field)
+        return self._kind(
+            clock.now_ns, self._error.apply(measured, self._interval.since(clock.now_ns))
+        )

@@ -50,7 +50,7 @@ class Kobuki(ModelPlugin):
         wheels: Left and right.
         imu: Its gyro.
         power: In which worlds its motors turn, shape (nworld,).
-        felt: Measurement of the gyro at the last update, shape (nworld, 10).
+        gyro: Measurement of the gyro at the last update, shape (nworld, 10).
         reckoning: Of how far the wheels have rolled.
         odometry: Odometry output.
     """
@@ -77,7 +77,7 @@ class Kobuki(ModelPlugin):
         self.imu = sensor_of(robot, parameters, "imu_name", ImuModel)
         self._cliffs, self._bumpers = Cliffs(robot, parameters), Bumpers(robot, parameters)
         nworld = robot.simulation.nworld
-        self.power, self.felt = np.ones(nworld, np.bool_), np.zeros((nworld, 10))
+        self.power, self.gyro = np.ones(nworld, np.bool_), np.zeros((nworld, 10))
         self.reckoning = DeadReckoning(self._clock, separation, radius, self.wheels)
         command = robot.inputs["cmd_vel"] = TwistInput(nworld, "")
         longest = parameters.require("velocity_command_timeout", float)
@@ -93,7 +93,7 @@ class Kobuki(ModelPlugin):
         )
         states = absolute(namespace, "joint_states")
         self._states = Output(states, JointStates, self._read_wheels, frame="base_link")
-        self._imu_data = Output("", ImuReading, self._feel, frame="gyro_link")
+        self._imu_data = Output("", ImuReading, self._read_gyro, frame="gyro_link")
         self._core = Output("", KobukiCore, self._read_core, queue_size=100)
         robot.outputs.update(joint_states=self._states, imu_data=self._imu_data, core=self._core)
         framed = parameters.get("publish_tf", False)
@@ -127,16 +127,16 @@ class Kobuki(ModelPlugin):
     def _switch(self, power: MotorPower, worlds: Worlds | None) -> None:
         self.power[slice(None) if worlds is None else worlds] = power.on
 
-    def join(self, power: Bools, felt: Floats) -> None:
+    def join(self, power: Bools, gyro: Floats) -> None:
         """Store the motors' power and the gyro's measurement in other arrays."""
-        power[:], felt[:] = self.power, self.felt
-        self.power, self.felt = power, felt
+        power[:], gyro[:] = self.power, self.gyro
+        self.power, self.gyro = power, gyro
 
     def publish(self, measured: Odometry | None) -> None:
         """Publish, with the odometry as it was measured."""
         self._states.publish()
         if self._imu_data.has_subscribers:
-            self._imu_data.hand(self._reading(self.felt.copy()))
+            self._imu_data.hand(self._reading(self.gyro.copy()))
         self.odometry.publish(measured)
         times, now_ns = self._core_times, self._clock.now_ns
         core_due = self._core.has_subscribers and times.is_due(now_ns)
@@ -147,7 +147,7 @@ class Kobuki(ModelPlugin):
             times.done(now_ns)
             self._core.publish()
 
-    def _feel(self) -> ImuReading:
+    def _read_gyro(self) -> ImuReading:
         return self._reading(self.imu.current())
 
     def _reading(self, values: Floats) -> ImuReading:

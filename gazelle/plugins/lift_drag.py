@@ -53,7 +53,9 @@ class LiftDrag(ModelPlugin):
         force = self._force(place.quaternion, velocity)
         force[np.linalg.norm(velocity, axis=1) <= _CALM] = 0.0
         lever = place.position + arm - self._simulation.engine.links[self._link.name].centre()
-        self._simulation.loads.hold(self._name, self._link.name, force, cross(lever, force))
+        self._simulation.applied_wrenches.hold(
+            self._name, self._link.name, force, cross(lever, force)
+        )
 
     def _force(self, quaternion: Floats, velocity: Floats) -> Floats:
         """Return lift and drag [N], in the world frame, shape (nworld, 3)."""

@@ -31,7 +31,7 @@ class UsvDynamics(ModelPlugin):
     def load(self, robot: Robot, parameters: Parameters) -> None:
         """Read the tags, find the body."""
         simulation = robot.simulation
-        self._engine, self._loads = simulation.engine, simulation.loads
+        self._engine, self._applied_wrenches = simulation.engine, simulation.applied_wrenches
         self._link, _ = robot.frame(parameters.get("bodyName", next(iter(robot.links))))
         self._level = parameters.get("waterLevel", 0.5)
         self._read_resistance(parameters)
@@ -89,7 +89,7 @@ class UsvDynamics(ModelPlugin):
         # The points are seen from the centre of mass, as the original has it.
         force += lift.sum(axis=1)
         torque += cross(arms, lift).sum(axis=1)
-        self._loads.hold("usv_dynamics", self._link.name, force, torque)
+        self._applied_wrenches.hold("usv_dynamics", self._link.name, force, torque)
 
     def _lift(self, depth: Floats) -> Floats:
         """Return the weight of water that slices displace at depths [N].

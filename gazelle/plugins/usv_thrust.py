@@ -99,7 +99,7 @@ class UsvThrust(ModelPlugin):
     def load(self, robot: Robot, parameters: Parameters) -> None:
         """Read the tags, find the links, open the ports."""
         simulation = robot.simulation
-        self._engine, self._loads = simulation.engine, simulation.loads
+        self._engine, self._applied_wrenches = simulation.engine, simulation.applied_wrenches
         self._clock, nworld = simulation.clock, simulation.nworld
         self._timeout = parameters.get("cmdTimeout", 1.0)
         namespace = namespace_of(robot, parameters)
@@ -167,7 +167,9 @@ class UsvThrust(ModelPlugin):
         torque[:, 2] = (thrust[:, 1] - thrust[:, 0]) * self._width
         force, torque = rotate(place.quaternion, force), rotate(place.quaternion, torque)
         lever = rotate(place.quaternion, np.broadcast_to(self._stern, force.shape))
-        self._loads.hold("usv_thrust", self._body.name, force, torque + cross(lever, force))
+        self._applied_wrenches.hold(
+            "usv_thrust", self._body.name, force, torque + cross(lever, force)
+        )
 
     def _push_each(self) -> None:
         for column, ((link, frame), curve) in enumerate(
@@ -178,7 +180,9 @@ class UsvThrust(ModelPlugin):
             force = curve.force(self._commands[:, column])[:, None] * ahead
             at = rotate(place.quaternion, _tiled(np.asarray(frame.position), len(force)))
             lever = place.position + at - self._engine.links[link.name].centre()
-            self._loads.hold(f"usv_thrust {column}", link.name, force, cross(lever, force))
+            self._applied_wrenches.hold(
+                f"usv_thrust {column}", link.name, force, cross(lever, force)
+            )
 
     # -- forgetting and saving -------------------------------------------------------------
 

@@ -99,7 +99,7 @@ class VacuumGripper(ModelPlugin):
     def _hold(self, link: str, force: NDArray[np.float64]) -> None:
         if link in self._simulation.engine.links.names:
             name = f"vacuum_gripper {self._link.name}"
-            self._simulation.loads.hold(name, link, force, np.zeros_like(force))
+            self._simulation.applied_wrenches.hold(name, link, force, np.zeros_like(force))
 
     def reset(self, worlds: Worlds | None) -> None:
         """Switch the gripper off."""

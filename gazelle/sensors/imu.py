@@ -77,14 +77,14 @@ class ImuModel(NoisySensor):
             worlds: Worlds; all if None.
             interval: Time since the last measurement [s].
         """
-        orientation, felt = _felt(
+        orientation, specific_force = _specific_force(
             self._mount,
             self._engine.links[self._link].placement(worlds),
             self._engine.links[self._link].motion(worlds),
             self._engine.links[self._link].acceleration(worlds),
             self._engine.parameter("gravity", "", worlds),
         )
-        return np.concatenate((orientation, self.noisy(felt, interval, worlds)), axis=1)
+        return np.concatenate((orientation, self.noisy(specific_force, interval, worlds)), axis=1)
 
     def system(self) -> SystemOf:
         """Return the system that measures it with others of equal noise."""
@@ -135,7 +135,7 @@ class ImuGroup(FromPython):
     def measure_all(self, interval: float) -> Floats:
         """Measure now, shape (nworld, n, 10); see ``ImuModel.measure``."""
         engine, links = self._engine, self._links
-        orientation, felt = _felt(
+        orientation, specific_force = _specific_force(
             self._mount,
             engine.links[links].placement(),
             engine.links[links].motion(),
@@ -143,12 +143,13 @@ class ImuGroup(FromPython):
             engine.parameter("gravity", "")[:, None, :],
         )
         columns = [
-            noise.apply(felt[..., i : i + 1], interval) for i, noise in enumerate(self._noises)
+            noise.apply(specific_force[..., i : i + 1], interval)
+            for i, noise in enumerate(self._noises)
         ]
         return np.concatenate((orientation, *columns), axis=-1)
 
 
-def _felt(
+def _specific_force(
     mount: tuple[Floats, Floats], place: Placement, motion: Motion, change: Motion, gravity: Floats
 ) -> tuple[Floats, Floats]:
     """Return orientation, and turning rate and specific force of an IMU, shape (..., 6)."""

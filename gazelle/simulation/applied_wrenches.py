@@ -83,7 +83,7 @@ class _Joint:
     efforts: list[TimedEffort] = field(default_factory=list)
 
 
-class Loads:
+class AppliedWrenches:
     """All timed forces of a run.
 
     Args:

@@ -125,7 +125,7 @@ class EntityManager:
         for unit in gone.sensors.values() if gone is not None else ():
             unit.retire()
         self.sensors[:] = [unit for unit in self.sensors if unit.robot is not gone]
-        simulation.loads.forget(name)
+        simulation.applied_wrenches.forget(name)
         simulation.parameters.pose.forget(name)
         simulation.engine.delete(name)
         if gone is not None:
@@ -135,7 +135,7 @@ class EntityManager:
         """Reset everything to its initial state; see ``Simulation.reset``."""
         simulation = self._simulation
         simulation.engine.reset(worlds)
-        simulation.loads.reset(worlds)
+        simulation.applied_wrenches.reset(worlds)
         if seed is not None:
             self._reseed(seed, worlds)
         simulation.parameters.pose.apply(worlds)

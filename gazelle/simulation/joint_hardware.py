@@ -78,7 +78,7 @@ class JointHardware(SimulatedHardware):
         self._names = tuple(handle.name for handle in self._handles)
         self._engine = robot.simulation.engine
         self._rows = self._engine.joints[self._names]
-        self._loads = robot.simulation.loads
+        self._applied_wrenches = robot.simulation.applied_wrenches
         described = [robot.joint_description(name) for name in names]
         for handle, joint in zip(self._handles, described, strict=True):
             # Read the description, not the engine: that would compile again for every robot.
@@ -245,7 +245,7 @@ class JointHardware(SimulatedHardware):
         simulation = self.robot.simulation
         if not (self._names and simulation.controls_in_step) or self._put_names:
             return None
-        if self._loads.turns(self._names) or not self._rows.in_step:
+        if self._applied_wrenches.turns(self._names) or not self._rows.in_step:
             return None
         self._bound_rows(in_step=True)
         return self.cycle
@@ -262,12 +262,14 @@ class JointHardware(SimulatedHardware):
         cycle = self.cycle
         if not (cycle.pushed_out.any() or cycle.driven_out.any()):
             return
-        if not self._loads.turns(self._names):
+        if not self._applied_wrenches.turns(self._names):
             self._bound_rows().act(cycle)
             return
         for index in np.flatnonzero(cycle.pushed_out.any(axis=0)).tolist():
             rows = np.flatnonzero(cycle.pushed_out[:, index])
-            self._loads.set_lasting(self._names[index], cycle.effort_out[rows, index, None], rows)
+            self._applied_wrenches.set_lasting(
+                self._names[index], cycle.effort_out[rows, index, None], rows
+            )
         for index in np.flatnonzero(cycle.driven_out.any(axis=0)).tolist():
             rows = np.flatnonzero(cycle.driven_out[:, index])
             self._handles[index].drive(cycle.speed_out[rows, index], rows)

@@ -68,7 +68,7 @@ class JointHandle:
     @effort.setter
     @between_steps
     def effort(self, value: ArrayLike) -> None:
-        self._simulation.loads.set_lasting(self.name, self._effort_of(value, None))
+        self._simulation.applied_wrenches.set_lasting(self.name, self._effort_of(value, None))
 
     @property
     @between_steps
@@ -98,12 +98,12 @@ class JointHandle:
         """
         some = self._some(worlds)
         rows = self._effort_of(effort, some)
-        self._simulation.loads.turn(self.name, rows, start, duration, some)
+        self._simulation.applied_wrenches.turn(self.name, rows, start, duration, some)
 
     @between_steps
     def clear_efforts(self) -> None:
         """Remove all efforts from the joint, in all worlds."""
-        self._simulation.loads.clear_joint(self.name)
+        self._simulation.applied_wrenches.clear_joint(self.name)
 
     def _some(self, worlds: Worlds | None) -> Worlds | None:
         return chosen(worlds, self._engine.nworld)

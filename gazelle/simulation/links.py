@@ -143,7 +143,7 @@ class LinkHandle:
         count = size_of(some, simulation.nworld)
         push = numbers("a force", force, 3, count), numbers("a torque", torque, 3, count)
         where = None if point is None else finite("the point of a force", point, 3, count)
-        simulation.loads.push(
+        simulation.applied_wrenches.push(
             self.name,
             *push,
             point=where,
@@ -157,7 +157,7 @@ class LinkHandle:
     @between_steps
     def clear_wrenches(self) -> None:
         """Remove all wrenches from the link, in all worlds."""
-        self._simulation.loads.clear_link(self.name)
+        self._simulation.applied_wrenches.clear_link(self.name)
 
     @between_steps
     def set_properties(

@@ -7,7 +7,7 @@ from typing import Protocol
 
 from gazelle.description import World
 from gazelle.engines import Engine
-from gazelle.simulation.applied_wrenches import Loads
+from gazelle.simulation.applied_wrenches import AppliedWrenches
 from gazelle.simulation.clock import Clock
 from gazelle.simulation.state_lock import StateLock
 from gazelle.simulation.systems_in_step import SystemsInStep
@@ -43,8 +43,8 @@ class RunningState(Protocol):
         """Engine that moves the world."""
 
     @property
-    def loads(self) -> Loads:
-        """Forces that act for a time."""
+    def applied_wrenches(self) -> AppliedWrenches:
+        """Forces and torques that act for a time."""
 
 
 class StepMaker(Protocol):

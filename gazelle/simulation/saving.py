@@ -63,7 +63,7 @@ def _gather(simulation: RobotHost) -> dict[str, NDArray[Any]]:
         "seed": simulation.seed,
         "history": encode(simulation.engine.history()),
         "laws": encode(_laws_of(simulation.engine.world)),
-        "loads": encode(simulation.loads.state()),
+        "loads": encode(simulation.applied_wrenches.state()),
         "parameters": encode(simulation.parameters.state()),
     }
     arrays["header"] = np.frombuffer(json.dumps(header).encode(), dtype=np.uint8)
@@ -121,7 +121,7 @@ def _put_back(
     _restore_engine(simulation, header, saved["engine"])
     simulation.clock.now_ns = int(header["time"])
     simulation.seed = header["seed"]
-    simulation.loads.restore(decode(header["loads"]))
+    simulation.applied_wrenches.restore(decode(header["loads"]))
     simulation.parameters.restore(decode(header["parameters"]))
     simulation.loop.release()
     for entry, count in zip(simulation.plugins, header["due"], strict=True):

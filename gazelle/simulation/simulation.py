@@ -19,7 +19,7 @@ from gazelle.errors import SimulationError
 from gazelle.rendering import LiveScene
 from gazelle.sensors import View
 from gazelle.simulation import inputs, pacing, saving
-from gazelle.simulation.applied_wrenches import Loads
+from gazelle.simulation.applied_wrenches import AppliedWrenches
 from gazelle.simulation.clock import Clock
 from gazelle.simulation.divergence import Fault, FaultLog
 from gazelle.simulation.entities import EntityManager
@@ -50,7 +50,7 @@ class Simulation(Closeable):
     One thread at a time holds ``lock``: the one that steps, or that reads or changes something.
     Everything that is read or changed through this object, its robots and their links, joints,
     sensors and ports is read or changed between two steps, from whichever thread, and is true
-    when the call returns. What else there is (``engine``, ``loads``, models of sensors) is used
+    when the call returns. What else there is (``engine``, ``applied_wrenches``, models of sensors) is used
     with ``with sim.lock:``. A callback must not wait for another thread that uses the simulation.
 
     Args:
@@ -104,12 +104,14 @@ class Simulation(Closeable):
         self.controls_in_step = True
         self.seed, self.clock, self.paused = seed_of(seed), Clock(self._engine.time_step), False
         self.physics, self.parameters = PhysicsProperties(self), WorldParameters(self)
-        self._loads = Loads(self._engine, self.clock)
+        self._applied_wrenches = AppliedWrenches(self._engine, self.clock)
         self.ports, self.events = Ports(self.lock, namespace), Events()
         self.entities = EntityManager(self)
         self._renderer, self.live_scene = SceneRenderer(), LiveScene(self._engine)
         self._faults = FaultLog(on_fault, fault_dump)
-        self.loop = StepLoop(self, self._engine, self._loads, self.entities, self._faults)
+        self.loop = StepLoop(
+            self, self._engine, self._applied_wrenches, self.entities, self._faults
+        )
         with self.lock:
             for plugin in loaded.plugins:
                 load_world_plugin(self, plugin)
@@ -122,9 +124,9 @@ class Simulation(Closeable):
         return self._engine
 
     @property
-    def loads(self) -> Loads:
+    def applied_wrenches(self) -> AppliedWrenches:
         """Forces that act for a time; likewise."""
-        return self._loads
+        return self._applied_wrenches
 
     @property
     def world(self) -> World:

@@ -14,7 +14,7 @@ from gazelle.engines import DivergenceError, Engine
 from gazelle.engines.limits import NANOSECONDS
 from gazelle.errors import SimulationError, SimulationWarning
 from gazelle.native.system import System
-from gazelle.simulation.applied_wrenches import Loads
+from gazelle.simulation.applied_wrenches import AppliedWrenches
 from gazelle.simulation.clock import Schedule
 from gazelle.simulation.divergence import FaultLog
 from gazelle.simulation.entities import EntityManager
@@ -52,7 +52,7 @@ class StepLoop:
     Args:
         simulation: The owner.
         engine: Steps the physics.
-        loads: Of the simulation.
+        applied_wrenches: Of the simulation.
         entities: Likewise.
         faults: Called with worlds that break down.
 
@@ -67,13 +67,13 @@ class StepLoop:
         self,
         simulation: RobotHost,
         engine: Engine,
-        loads: Loads,
+        applied_wrenches: AppliedWrenches,
         entities: EntityManager,
         faults: FaultLog,
     ) -> None:
         self._simulation = simulation
         self._engine = engine
-        self._loads = loads
+        self._applied_wrenches = applied_wrenches
         self._entities = entities
         self._faults = faults
         self._falls = FallWatch(engine)
@@ -139,13 +139,13 @@ class StepLoop:
 
     def _advance(self, most: int) -> int:
         """Run what is due, then step towards the next due time; returns the steps."""
-        clock, loads = self._simulation.clock, self._loads
+        clock, applied = self._simulation.clock, self._applied_wrenches
         plugins = self._update_plugins()
         plan = self._plan
         if self._simulation.lock.closed:
             raise SimulationError(CLOSED)
-        if loads.any:
-            loads.update(clock.now_ns)
+        if applied.any:
+            applied.update(clock.now_ns)
         if self.followers or self._listeners:
             most = 1
         # Nothing is due within a single step: no plugin need be queried.
@@ -155,8 +155,8 @@ class StepLoop:
             steps = min(steps, clock.steps_to((clock.now_ns // NANOSECONDS + 1) * NANOSECONDS))
             if self.in_step.kernels:
                 steps = min(steps, self._steps_in_step())
-        if loads.any:
-            steps = min(steps, loads.steps_until(clock) or steps)
+        if applied.any:
+            steps = min(steps, applied.steps_until(clock) or steps)
         try:
             if steps < self._most:
                 self._step(steps)
@@ -200,8 +200,8 @@ class StepLoop:
         return self.in_step.query(self._simulation.clock.now_ns, self._holds(), updated)
 
     def _holds(self) -> Hashable:
-        """Return the cache key: engine revision, step size, applied loads."""
-        return self._engine.revision, self._simulation.clock.step_ns, self._loads.turned
+        """Return the cache key: engine revision, step size, applied wrenches."""
+        return self._engine.revision, self._simulation.clock.step_ns, self._applied_wrenches.turned
 
     def _is_settled(self) -> bool:
         """Return whether the plan still holds."""
@@ -270,7 +270,7 @@ class StepLoop:
         for group in self._plan.groups:
             group.follow()
 
-    def _step_piece(self, wanted: int) -> int:
+    def _step_piece(self, count: int) -> int:
         """Make as many steps at once as are not too long; returns their number."""
         steps, begin, worked = self._most, time.perf_counter(), time.process_time()
         self._step(steps)
@@ -282,7 +282,7 @@ class StepLoop:
             self._most *= 2
         elif took > longest:
             self._most = max(1, self._most // 2)
-        self.cut = steps < wanted
+        self.cut = steps < count
         return steps
 
     def _shorten(self) -> None:
@@ -292,14 +292,14 @@ class StepLoop:
             self._most = max(1, int(self._most * _PIECE / _LONG_PIECE))
         self._requested = now
 
-    def _give_up(self, error: DivergenceError, wanted: int) -> int:
+    def _give_up(self, error: DivergenceError, count: int) -> int:
         """Start worlds over that broke down, as ``on_fault`` says, when the others are there.
 
         That is when Python comes next, within a second, so that it does not depend on where steps are cut.
 
         Args:
             error: Error of the first of the steps.
-            wanted: Total number of steps.
+            count: Total number of steps.
 
         Returns:
             How many steps were made.
@@ -308,7 +308,7 @@ class StepLoop:
         clock.advance(error.made - error.steps)
         text = self._faults.note(self._simulation, error, clock.now_ns)
         clock.advance(error.steps)
-        left = wanted - error.made
+        left = count - error.made
         while left > 0:
             try:
                 self._step(left)
@@ -327,4 +327,4 @@ class StepLoop:
         if self._faults.policy == "raise":
             raise DivergenceError(text, worlds, before, error.steps, error.made) from error
         warnings.warn(SimulationWarning(text), stacklevel=6)
-        return wanted
+        return count

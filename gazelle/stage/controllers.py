@@ -29,10 +29,10 @@ FEW: Final = 8  # samples with which Stage's own does not run
 DEVIATION = 0.05  # of lasernoise [m]
 
 
-Wanted = list[tuple[StageRobot, str]]
+RobotArguments = list[tuple[StageRobot, str]]
 """The robots whose ``ctrl`` names a controller, each with what comes after the name."""
 
-Maker = Callable[[StageFleet, Wanted], list[FleetController]]
+Maker = Callable[[StageFleet, RobotArguments], list[FleetController]]
 
 
 def register_controller(name: str, make: Maker) -> None:
@@ -54,16 +54,16 @@ def register_controller(name: str, make: Maker) -> None:
 
 def make_controllers(simulation: StageFleet) -> list[FleetController]:
     """Create the controllers that robots name; unknown ones were warned of on loading."""
-    named: dict[str, Wanted] = {}
+    named: dict[str, RobotArguments] = {}
     for robot in simulation.robots:
         models = [robot.model, *(ranger.model for ranger in robot.rangers)]
         for controller in (each for model in models for each in model.controllers):
             named.setdefault(controller.name, []).append((robot, controller.arguments))
     made: list[FleetController] = []
-    for name, wanted in named.items():
+    for name, robots in named.items():
         maker = _makers.get(name)
         if maker is not None:
-            made += maker(simulation, wanted)
+            made += maker(simulation, robots)
     return made
 
 
@@ -100,7 +100,7 @@ def _driven(model: Model, controller: str) -> Model:
 class LaserNoise(FleetController):
     """Adds white noise to what the rangers of some robots measure; it acts in the scan itself."""
 
-    def __init__(self, simulation: StageFleet, robots: Wanted) -> None:
+    def __init__(self, simulation: StageFleet, robots: RobotArguments) -> None:
         self._simulation, self._robots = simulation, robots
         self.rebind()
 
@@ -131,11 +131,11 @@ def _number(text: str, default: float) -> float:
 
 
 def _make_rangers(
-    kind: type[RangerController], simulation: StageFleet, wanted: Wanted
+    kind: type[RangerController], simulation: StageFleet, robots: RobotArguments
 ) -> list[FleetController]:
     groups: dict[int, list[tuple[StageRobot, Ranger]]] = {}
     blind = []
-    for robot, _ in wanted:
+    for robot, _ in robots:
         ranger = _looked_at(robot)
         if ranger is None:
             blind.append(robot.name)
@@ -157,8 +157,8 @@ def _looked_at(robot: StageRobot) -> Ranger | None:
     return next(iter(fine or rangers), None)
 
 
-def _make_noise(simulation: StageFleet, wanted: Wanted) -> list[FleetController]:
-    return [LaserNoise(simulation, wanted)]
+def _make_noise(simulation: StageFleet, robots: RobotArguments) -> list[FleetController]:
+    return [LaserNoise(simulation, robots)]
 
 
 _makers: dict[str, Maker] = {

@@ -47,7 +47,7 @@ def test_several_wrenches_add_up_and_each_ends_by_itself():
         link.clear_wrenches()
         sim.run(1.0)
         assert speed(sim, 1)[0] == pytest.approx(2.5)
-        assert not sim.loads.any
+        assert not sim.applied_wrenches.any
 
 
 def test_a_force_at_a_point_turns_the_body_by_its_lever():

@@ -132,9 +132,9 @@ class FusedSource:
         found = message.linear_acceleration_covariance
         sensor = self._acceleration
         if uses(ACCELERATION) and found[0] != -1.0 and self._is_new(sensor, stamp):
-            felt = np.array(point(message.linear_acceleration))
+            measured = np.array(point(message.linear_acceleration))
             spread = np.array(found, float).reshape(3, 3)
-            self._keep(sensor.measure(frame, stamp, felt, spread, attitude))
+            self._keep(sensor.measure(frame, stamp, measured, spread, attitude))
 
     def _is_new(self, sensor: FusedSensor, stamp: int) -> bool:
         """Return whether a message counts, and note its time."""

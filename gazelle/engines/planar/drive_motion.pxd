@@ -6,12 +6,12 @@ cdef double MOST_LOOKS, PI
 
 cdef double bounded(Bodies w, double value, Py_ssize_t k, Py_ssize_t axis) noexcept nogil
 cdef double toward(
-    Bodies w, double now, double wanted, Py_ssize_t k, Py_ssize_t axis, double dt) noexcept nogil
+    Bodies w, double now, double target, Py_ssize_t k, Py_ssize_t axis, double dt) noexcept nogil
 cdef (double, double, double, double) turned(double angle) noexcept nogil
 cdef void go(Bodies w, Py_ssize_t b, double vx, double vy, double turn, double dt) noexcept nogil
-@cython.locals(b=Py_ssize_t, k=Py_ssize_t, axis=Py_ssize_t, longest=double, wanted=double)
+@cython.locals(b=Py_ssize_t, k=Py_ssize_t, axis=Py_ssize_t, longest=double, target=double)
 cdef double propose(Bodies w, Py_ssize_t first, Py_ssize_t last, double dt) noexcept nogil
-@cython.locals(wanted=double)
+@cython.locals(target=double)
 cdef double fastest(Bodies w, Py_ssize_t b, Py_ssize_t k, Py_ssize_t axis) noexcept nogil
 @cython.locals(b=Py_ssize_t, k=Py_ssize_t, d=Py_ssize_t, most=double)
 cdef Py_ssize_t looks_on_the_way(Bodies w, Py_ssize_t first, Py_ssize_t last) noexcept nogil

@@ -46,11 +46,11 @@ def bounded(w: Bodies, value: float, k: int, axis: int) -> float:
     return min(max(value, w.drives[k, SLOWEST + axis]), w.drives[k, FASTEST + axis])
 
 
-def toward(w: Bodies, now: float, wanted: float, k: int, axis: int, dt: float) -> float:
+def toward(w: Bodies, now: float, target: float, k: int, axis: int, dt: float) -> float:
     """Return the velocity along an axis after a step, within a drive's bounds of acceleration."""
-    change = wanted - now
+    change = target - now
     least, most = w.drives[k, BRAKE + axis] * dt, w.drives[k, PUSH + axis] * dt
-    return wanted if least <= change <= most else now + min(max(change, least), most)
+    return target if least <= change <= most else now + min(max(change, least), most)
 
 
 def turned(angle: float) -> tuple[float, float, float, float]:
@@ -115,12 +115,12 @@ def propose(w: Bodies, first: int, last: int, dt: float) -> float:
         if kind == PASSIVE:
             continue
         for axis in range(3):
-            wanted = w.command[b, axis]
+            target = w.command[b, axis]
             if w.drives[k, FREE] == 0.0:
                 if kind != CAR:
-                    wanted = bounded(w, wanted, k, axis)
-                wanted = toward(w, w.velocity[b, axis], wanted, k, axis, dt)
-            w.velocity[b, axis] = wanted
+                    target = bounded(w, target, k, axis)
+                target = toward(w, w.velocity[b, axis], target, k, axis, dt)
+            w.velocity[b, axis] = target
         vx, vy, turn = w.velocity[b, 0], w.velocity[b, 1], w.velocity[b, 2]
         if kind in (DIFFERENTIAL, CAR):
             vy = w.velocity[b, 1] = 0.0
@@ -141,10 +141,10 @@ def propose(w: Bodies, first: int, last: int, dt: float) -> float:
 
 def fastest(w: Bodies, b: int, k: int, axis: int) -> float:
     """Return the highest speed of a body along an axis in this step."""
-    wanted = w.command[b, axis]
+    target = w.command[b, axis]
     if w.drives[k, DRIVE_KIND] != CAR:
-        wanted = bounded(w, wanted, k, axis)
-    return max(abs(w.velocity[b, axis]), abs(wanted))
+        target = bounded(w, target, k, axis)
+    return max(abs(w.velocity[b, axis]), abs(target))
 
 
 def looks_on_the_way(w: Bodies, first: int, last: int) -> int:

@@ -53,7 +53,7 @@ class SystemSteps:
         if not count:
             return
         if self._kept is None or self._kept[0] != systems:
-            self._kept = systems, *self._put_together(systems)
+            self._kept = systems, *self._assemble(systems)
         _, loop, threads = self._kept
         loop.step = round(self._fleet.time_step * NANOSECONDS)
         try:
@@ -63,7 +63,7 @@ class SystemSteps:
             raise EngineError(f"no clock counts {count} steps from {now_ns} ns") from None
         self._fleet.changes += 1
 
-    def _put_together(self, systems: Sequence[System]) -> tuple[SystemLoop, int]:
+    def _assemble(self, systems: Sequence[System]) -> tuple[SystemLoop, int]:
         """Return the loop that makes steps with these systems, and its number of threads."""
         fleet, joints = self._fleet, self._joints()
         last = [Turning(fleet.bodies, joints)] if self._axes else []

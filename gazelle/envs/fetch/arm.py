@@ -9,7 +9,7 @@ import numpy as np
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Joint, Model, Pose
-from gazelle.envs.fetch.gripper import DOWN, FINGERS, GRIP, TIP, CarriedGripper, driven, fetch_model
+from gazelle.envs.fetch.gripper import DOWN, FINGERS, GRIP, TIP, FetchGripper, driven, fetch_model
 from gazelle.errors import TaskError
 from gazelle.kinematics import InverseKinematics, RobotModel
 from gazelle.simulation import Simulation
@@ -52,7 +52,7 @@ def held_model(
     return dataclasses.replace(model, joints=(*joints, *held), plugins=())
 
 
-class ReachingArm(CarriedGripper):
+class ReachingArm(FetchGripper):
     """The gripper on the arm of a robot that stands fast.
 
     Inverse kinematics leads from where the joints are to where they shall be, and motors hold the
@@ -62,7 +62,7 @@ class ReachingArm(CarriedGripper):
         simulation: Simulation for it.
         start: Start of the point between its fingers [m], in the world frame.
         base: Position of the robot (x, y) [m].
-        fingers_move: See `CarriedGripper`.
+        fingers_move: See `FetchGripper`.
 
     Raises:
         TaskError: The arm cannot be there.

@@ -54,7 +54,7 @@ def driven(joint: Joint) -> Joint:
     return dataclasses.replace(joint, axes=axes)
 
 
-class CarriedGripper(ABC):
+class FetchGripper(ABC):
     """Fetch's gripper, pointing down, in all worlds.
 
     Args:
@@ -123,13 +123,13 @@ class CarriedGripper(ABC):
             joint.drive(0.0, worlds)
 
 
-class FlyingGripper(CarriedGripper):
+class FlyingGripper(FetchGripper):
     """The gripper alone, on three slides that go wherever they are commanded.
 
     Args:
         simulation: Simulation for it.
         start: Start of the point between its fingers [m], in the world frame.
-        fingers_move: See `CarriedGripper`.
+        fingers_move: See `FetchGripper`.
     """
 
     def __init__(

@@ -23,7 +23,7 @@ from gazelle.envs.fetch.figures import (
     FetchFigures,
     figures_of,
 )
-from gazelle.envs.fetch.gripper import CarriedGripper, FlyingGripper
+from gazelle.envs.fetch.gripper import FetchGripper, FlyingGripper
 from gazelle.envs.fetch.options import FetchSettings
 from gazelle.envs.fetch.welded import WELDED_STEP, WeldedArm
 from gazelle.envs.goal_task import GoalSimulationTask
@@ -172,7 +172,7 @@ class FetchTask(GoalSimulationTask):
         return centre + away
 
 
-def _gripper_of(control: str, simulation: Simulation, figures: FetchFigures) -> CarriedGripper:
+def _gripper_of(control: str, simulation: Simulation, figures: FetchFigures) -> FetchGripper:
     """Create the gripper of an option."""
     moving = figures.fingers_move
     if control == "gripper":

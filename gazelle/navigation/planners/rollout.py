@@ -297,10 +297,10 @@ class TrajectoryRollout:
 
 @cython.cfunc
 @cython.exceptval(check=False)
-def _toward(now: cython.double, wanted: cython.double, most: cython.double) -> cython.double:
-    if now < wanted:
-        return min(wanted, now + most)
-    return max(wanted, now - most)
+def _toward(now: cython.double, target: cython.double, most: cython.double) -> cython.double:
+    if now < target:
+        return min(target, now + most)
+    return max(target, now - most)
 
 
 def _clear_of(costs: Bytes, footprint: Floats, resolution: float) -> Bytes:

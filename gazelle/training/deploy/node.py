@@ -192,14 +192,14 @@ class DeployNode(Closeable):
     def _on_scan(self, message: sensor_msgs.msg.LaserScan) -> None:
         reading = scan_of(message)
         with self._lock:
-            self.pilot.see(reading, self._measured_at(message))
+            self.pilot.set_scan(reading, self._measured_at(message))
         self._news.set()
 
     def _on_odometry(self, message: nav_msgs.msg.Odometry) -> None:
         reading = odometry_of(message)
         with self._lock:
             self._frame = message.header.frame_id.removeprefix("/")
-            self.pilot.feel(reading, self._measured_at(message))
+            self.pilot.set_odometry(reading, self._measured_at(message))
 
     def _serve_arm(self, request: std_srvs.srv.SetBoolRequest) -> std_srvs.srv.SetBoolResponse:
         response = std_srvs.srv.SetBoolResponse()

@@ -106,12 +106,12 @@ class Pilot:
 
     # Messages received -------------------------------------------------------------------------
 
-    def see(self, scan: ScanReading, now: float) -> None:
+    def set_scan(self, scan: ScanReading, now: float) -> None:
         """Store a scan."""
         self._scan = (now, scan)
         self._fresh = True
 
-    def feel(self, odometry: OdometryReading, now: float) -> None:
+    def set_odometry(self, odometry: OdometryReading, now: float) -> None:
         """Store odometry, in the frame of the goals."""
         self._odometry = (now, odometry)
 

@@ -116,14 +116,14 @@ class TimeLog:
             del self._times[1::2], self._states[1::2]
         self._next = begin + max(_PERIOD, (time.monotonic() - begin) / _SHARE)
 
-    def _seek(self, wanted: float) -> None:
+    def _seek(self, seconds: float) -> None:
         """Restore the state at the slider's time; the simulation is paused."""
         simulation = self._context.simulation
         with simulation.lock:
             simulation.pause()
             self._playing = False
             self._begin()
-            self._restore(bisect.bisect_right(self._times, wanted + _STEP) - 1)
+            self._restore(bisect.bisect_right(self._times, seconds + _STEP) - 1)
 
     def _replay(self) -> None:
         """Restore one state after the other, as fast as they were, from the first or the present one."""

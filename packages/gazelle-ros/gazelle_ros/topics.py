@@ -215,19 +215,19 @@ class TopicNode(NodeBase):
         self.loop.run(subscription.close)
 
 
-def _check_same(known: Any, wanted: Any, topic: str) -> None:
-    mine, theirs = known._md5sum, wanted._md5sum
+def _check_same(known: Any, requested: Any, topic: str) -> None:
+    mine, theirs = known._md5sum, requested._md5sum
     if ANY not in {mine, theirs} and mine != theirs:
         raise Md5MismatchError(
-            f"this node uses {topic} with the type {known._type} already, not {wanted._type}"
+            f"this node uses {topic} with the type {known._type} already, not {requested._type}"
         )
 
 
-def _wider(known: int | None, wanted: int | None, *, fresh: bool) -> int | None:
+def _wider(known: int | None, requested: int | None, *, fresh: bool) -> int | None:
     """Return the larger of two queue sizes; None is without bound."""
     if fresh:
-        return wanted
-    return None if known is None or wanted is None else max(known, wanted)
+        return requested
+    return None if known is None or requested is None else max(known, requested)
 
 
 def _left(deadline: float, most: float) -> float:

@@ -37,8 +37,8 @@ def scan(ranges=FREE):
 def pilot(straight_on):
     """Return an armed pilot, on its way to a goal far ahead."""
     made = Pilot(open_policy(straight_on), SafetyLimits(stop_distance=0.2))
-    made.see(scan(), 10.0)
-    made.feel(AT, 10.0)
+    made.set_scan(scan(), 10.0)
+    made.set_odometry(AT, 10.0)
     made.go_to([GoalPlace(3.0, 0.0)], 10.0)
     assert made.arm(10.0) is None
     return made
@@ -47,9 +47,9 @@ def pilot(straight_on):
 def test_it_drives_when_it_is_armed_and_has_a_goal(straight_on):
     pilot = Pilot(open_policy(straight_on), SafetyLimits())
     assert pilot.arm(0.0) == "no scan yet"
-    pilot.see(scan(), 0.0)
+    pilot.set_scan(scan(), 0.0)
     assert pilot.arm(0.0) == "no odometry yet"
-    pilot.feel(AT, 0.0)
+    pilot.set_odometry(AT, 0.0)
     assert pilot.arm(0.0) is None
     assert not pilot.tick(0.0, None).active
     pilot.go_to([GoalPlace(3.0, 0.0)], 0.0)
@@ -67,14 +67,14 @@ def test_without_news_it_stands(pilot, deaf, reason):
     while now < 12.0:
         now += 0.05
         if deaf != "scan":
-            pilot.see(scan(), now)
+            pilot.set_scan(scan(), now)
         if deaf != "odometry":
-            pilot.feel(AT, now)
+            pilot.set_odometry(AT, now)
         tick = pilot.tick(now, (3.0, 0.0))
         assert tick.command.moves == (now - 10.0 <= 0.4)
         assert tick.reason == (None if tick.command.moves else reason)
-    pilot.see(scan(), now)
-    pilot.feel(AT, now)
+    pilot.set_scan(scan(), now)
+    pilot.set_odometry(AT, now)
     assert pilot.tick(now, (3.0, 0.0)).command.moves
 
 
@@ -83,13 +83,13 @@ def test_it_acts_once_a_period_and_on_new_scans_only(pilot):
     for number in range(100):
         now = 10.0 + 0.02 * number
         if number % 2 == 0:
-            pilot.see(scan(), now)
-        pilot.feel(AT, now)
+            pilot.set_scan(scan(), now)
+        pilot.set_odometry(AT, now)
         if pilot.tick(now, (3.0, 0.0)).acted:
             acts.append(now)
     assert min(np.diff(acts)) >= 0.15 - 1e-9
     assert max(np.diff(acts)) <= 0.2 + 1e-9
-    pilot.see(scan(), now + 0.2)
+    pilot.set_scan(scan(), now + 0.2)
     assert pilot.tick(now + 0.2, (3.0, 0.0)).acted
     assert pilot.tick(now + 0.39, (3.0, 0.0)).acted is None
 
@@ -98,7 +98,7 @@ def test_it_acts_once_a_period_and_on_new_scans_only(pilot):
 def test_an_obstacle_ahead_stops_it_whatever_the_policy_wants(pilot, angle):
     ranges = FREE.copy()
     ranges[angle] = 0.19
-    pilot.see(scan(ranges), 10.1)
+    pilot.set_scan(scan(ranges), 10.1)
     tick = pilot.tick(10.1, (3.0, 0.0))
     assert tick.command == VelocityCommand(0.0, 0.0)
     assert tick.policy_command == VelocityCommand(0.15, 0.0)
@@ -109,14 +109,14 @@ def test_an_obstacle_ahead_stops_it_whatever_the_policy_wants(pilot, angle):
 def test_an_obstacle_beside_or_behind_it_does_not(pilot, angle):
     ranges = FREE.copy()
     ranges[angle] = 0.19
-    pilot.see(scan(ranges), 10.1)
+    pilot.set_scan(scan(ranges), 10.1)
     assert pilot.tick(10.1, (3.0, 0.0)).command == VelocityCommand(0.15, 0.0)
 
 
 def test_what_is_too_near_to_measure_is_an_obstacle(pilot):
     ranges = FREE.copy()
     ranges[5] = -np.inf
-    pilot.see(scan(ranges), 10.1)
+    pilot.set_scan(scan(ranges), 10.1)
     assert pilot.tick(10.1, (3.0, 0.0)).command == VelocityCommand(0.0, 0.0)
 
 
@@ -124,12 +124,12 @@ def test_the_stop_sees_rays_that_the_policy_does_not(pilot):
     """Between two of the policy's 24 rays there is a pole of one ray's width."""
     ranges = FREE.copy()
     ranges[7] = 0.15
-    pilot.see(scan(ranges), 10.1)
+    pilot.set_scan(scan(ranges), 10.1)
     assert pilot.tick(10.1, (3.0, 0.0)).command == VelocityCommand(0.0, 0.0)
 
 
 def test_a_scan_of_failed_rays_is_no_scan(pilot):
-    pilot.see(scan(np.where(np.arange(360) % 3, np.nan, 1.0)), 10.1)
+    pilot.set_scan(scan(np.where(np.arange(360) % 3, np.nan, 1.0)), 10.1)
     tick = pilot.tick(10.1, (3.0, 0.0))
     assert not tick.command.moves
     assert tick.reason == "scan unusable: most rays failed"
@@ -137,8 +137,8 @@ def test_a_scan_of_failed_rays_is_no_scan(pilot):
 
 def test_speeds_are_limited(straight_on):
     pilot = Pilot(open_policy(straight_on), SafetyLimits(max_linear=0.1))
-    pilot.see(scan(), 0.0)
-    pilot.feel(AT, 0.0)
+    pilot.set_scan(scan(), 0.0)
+    pilot.set_odometry(AT, 0.0)
     pilot.go_to([GoalPlace(3.0, 0.0)], 0.0)
     pilot.arm(0.0)
     tick = pilot.tick(0.0, (3.0, 0.0))
@@ -172,8 +172,8 @@ def test_goals_come_to_an_end(pilot, place, ranges, after, outcome):
     pilot.waiting.append(GoalPlace(1.0, 1.0))
     pilot.tick(10.0, (3.0, 0.0))
     now = 10.0 + after
-    pilot.see(scan(ranges), now)
-    pilot.feel(place, now)
+    pilot.set_scan(scan(ranges), now)
+    pilot.set_odometry(place, now)
     tick = pilot.tick(now, (3.0, 0.0))
     assert tick.ended.outcome == outcome
     assert tick.ended.seconds == pytest.approx(after)
@@ -183,7 +183,7 @@ def test_goals_come_to_an_end(pilot, place, ranges, after, outcome):
 
 
 def test_after_the_last_goal_others_may_drive(pilot):
-    pilot.feel(OdometryReading(3.0, 0.0, 0.0), 10.1)
+    pilot.set_odometry(OdometryReading(3.0, 0.0, 0.0), 10.1)
     assert pilot.tick(10.1, (3.0, 0.0)).ended.outcome == "reached"
     assert not pilot.tick(10.2, None).active
 
@@ -200,8 +200,8 @@ def test_when_time_jumps_back_old_readings_are_forgotten(pilot):
     tick = pilot.tick(0.0, (3.0, 0.0))
     assert not tick.command.moves
     assert tick.reason == "no scan yet"
-    pilot.see(scan(), 0.1)
-    pilot.feel(AT, 0.1)
+    pilot.set_scan(scan(), 0.1)
+    pilot.set_odometry(AT, 0.1)
     assert pilot.tick(0.1, (3.0, 0.0)).command.moves
 
 
@@ -209,8 +209,8 @@ def test_the_score_is_what_it_came_nearer(pilot):
     pilot.tick(10.0, (3.0, 0.0))
     for number in range(1, 4):
         now = 10.0 + 0.2 * number
-        pilot.see(scan(), now)
-        pilot.feel(OdometryReading(0.03 * number, 0.0, 0.0), now)
+        pilot.set_scan(scan(), now)
+        pilot.set_odometry(OdometryReading(0.03 * number, 0.0, 0.0), now)
         acted = pilot.tick(now, (3.0, 0.0)).acted
         assert acted.gain == pytest.approx(0.03)
         assert acted.score == pytest.approx(0.03 * number)

@@ -17,7 +17,7 @@ def drive_motors(
     velocity: wp.array2d[float],
     stiffness: wp.array2d[float],
     effort: wp.array2d[float],
-    wanted: wp.array2d[float],
+    target: wp.array2d[float],
     reference: wp.array2d[float],
 ) -> None:
     """Set motors to hold their velocities rather than rest; the model's tendons are theirs."""
@@ -26,8 +26,8 @@ def drive_motors(
         return
     motor = owner[world, row]
     step = timestep[world % timestep.shape[0]]
-    rate = (wanted[world, motor] - velocity[world, row]) / step
+    rate = (target[world, motor] - velocity[world, row]) / step
     most = effort[world, row] / stiffness[world, row]
-    given = wp.clamp(wanted[world, count + motor] + rate, -most, most)
-    wanted[world, count + motor] = given
+    given = wp.clamp(target[world, count + motor] + rate, -most, most)
+    target[world, count + motor] = given
     reference[world, row] = rate + given

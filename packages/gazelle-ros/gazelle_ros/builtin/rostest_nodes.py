@@ -81,7 +81,7 @@ def _wait(condition: Callable[[], Any], seconds: float) -> bool:
 
 
 class HzTest(_Test):
-    """Compares the rate of a topic with the wanted one."""
+    """Compares the rate of a topic with the expected one."""
 
     def test_hz(self) -> None:
         """Test that the rate is ``~hz``, give or take ``~hzerror``."""
@@ -125,12 +125,12 @@ class ParamTest(_Test):
     """Waits for a parameter."""
 
     def test_param(self) -> None:
-        """Test that the parameter is set, and to the wanted value if there is one."""
-        name, wanted = self.param("param_name_target"), self.param("param_value_expected", None)
+        """Test that the parameter is set, and to the expected value if there is one."""
+        name, expected = self.param("param_name_target"), self.param("param_value_expected", None)
         there = _wait(lambda: rospy.has_param(name), float(self.param("wait_time", 20)))
         self.assertTrue(there, f"the parameter {name} is not set")
-        if wanted is not None:
-            self.assertEqual(rospy.get_param(name), wanted)
+        if expected is not None:
+            self.assertEqual(rospy.get_param(name), expected)
 
 
 class PublishTest(_Test):
@@ -163,9 +163,9 @@ class AdvertiseTest(_Test):
         from gazelle_ros.compat.rosservice import get_service_list, get_service_type
 
         def known() -> dict[str, Any]:
-            wanted = {each["name"] for each in services if each["type"]}
+            typed = {each["name"] for each in services if each["type"]}
             return {
-                name: get_service_type(name) if name in wanted else None
+                name: get_service_type(name) if name in typed else None
                 for name in get_service_list()
             }
 
@@ -173,10 +173,10 @@ class AdvertiseTest(_Test):
         self._all(services, known, "Service")
 
     def _all(
-        self, wanted: list[dict[str, Any]], known: Callable[[], dict[str, Any]], what: str
+        self, expected: list[dict[str, Any]], known: Callable[[], dict[str, Any]], what: str
     ) -> None:
         begin = time.monotonic()
-        for each in sorted(wanted, key=lambda entry: float(entry["timeout"])):
+        for each in sorted(expected, key=lambda entry: float(entry["timeout"])):
             name = each["name"]
             left = float(each["timeout"]) - (time.monotonic() - begin)
             there = _wait(functools.partial(lambda n: n in known(), name), left)

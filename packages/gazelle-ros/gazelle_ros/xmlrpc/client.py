@@ -87,7 +87,7 @@ class BlockingClient:
                 if message is not None:
                     return self._finish(sock, message)
             sock.close()
-        return self._call_anew(data)
+        return self._call_again(data)
 
     def close(self) -> None:
         """Close the idle connections."""
@@ -97,7 +97,7 @@ class BlockingClient:
         for sock in idle:
             sock.close()
 
-    def _call_anew(self, data: bytes) -> Any:
+    def _call_again(self, data: bytes) -> Any:
         sock = None
         try:
             sock = net.connect(self._host, self._port, self.timeout)

@@ -32,14 +32,14 @@ def main(arguments: Sequence[str]) -> int:
     if options.command == "list":
         _list(groups)
         return 0
-    wanted = list(dict.fromkeys(groups.get(options.group, ())))
-    if not wanted:
+    controllers = list(dict.fromkeys(groups.get(options.group, ())))
+    if not controllers:
         rospy.logerr(f"There is no controller defined in group {options.group}")
     elif options.command == "spawn":
-        _spawn(wanted)
+        _spawn(controllers)
     else:
-        others = {name for group in groups.values() for name in group} - set(wanted)
-        _switch(wanted, others)
+        others = {name for group in groups.values() for name in group} - set(controllers)
+        _switch(controllers, others)
     return 0
 
 
@@ -50,22 +50,22 @@ def _list(groups: Mapping[str, Sequence[str]]) -> None:
     sys.stdout.write("\n".join(lines) + "\n")
 
 
-def _spawn(wanted: Sequence[str]) -> None:
-    for name in wanted:
+def _spawn(controllers: Sequence[str]) -> None:
+    for name in controllers:
         manager.load_controller(name)
-    for name in wanted:
+    for name in controllers:
         manager.start_controller(name)
 
 
-def _switch(wanted: Sequence[str], others: set[str]) -> None:
+def _switch(controllers: Sequence[str], others: set[str]) -> None:
     """Load what is missing, start what does not run, and stop what belongs to other groups."""
     states = _states()
-    for name in wanted:
+    for name in controllers:
         if name not in states and not manager.load_controller(name):
             sys.stdout.write("Cancel group switching\n")
             return
     manager.start_stop_controllers(
-        start_controllers=[name for name in wanted if states.get(name) != "running"],
+        start_controllers=[name for name in controllers if states.get(name) != "running"],
         stop_controllers=[
             name for name, state in states.items() if name in others and state == "running"
         ],

@@ -162,11 +162,11 @@ class VoxelMap:
         self.values = np.insert(self.values, fresh, np.float32(change))
 
 
-def _contains(codes: Ints64, wanted: Ints64) -> Bools:
-    """Return whether ascending codes contain others, shape (wanted,)."""
-    place = np.searchsorted(codes, wanted)
+def _contains(codes: Ints64, candidates: Ints64) -> Bools:
+    """Return whether ascending codes contain others, shape (candidates,)."""
+    place = np.searchsorted(codes, candidates)
     found: Bools = place < len(codes)
-    found[found] = codes[place[found]] == wanted[found]
+    found[found] = codes[place[found]] == candidates[found]
     return found
 
 
