@@ -208,8 +208,9 @@ class DisplayList:
             return
         self._forget(name)
         if name not in self._switches:
+            label = f"Robot {name.rpartition('/')[0]}".rstrip()
             with self._folder:
-                box = self._context.gui.add_checkbox(f"Robot {name}", initial_value=True)
+                box = self._context.gui.add_checkbox(label, initial_value=True, hint=name)
             box.on_update(lambda _event: self._switch_robot(name))
             self._switches[name] = box
             self._restore_robot(name)
