@@ -44,6 +44,22 @@ def test_what_computes_first_says_what_it_could_not_take():
         ratio(1.0, by=2.0)
 
 
+@checked(SimulationError, after=True)
+class Share:
+    def __init__(self, of: float) -> None:
+        self.of = of
+
+    def doubled(self, by: float) -> float:
+        return self.of * by
+
+
+@pytest.mark.parametrize("of", [math.nan, math.inf, HUGE])
+def test_constructors_check_first_also_where_methods_do_not(of):
+    with pytest.raises(SimulationError, match="'of' must be"):
+        Share(of)
+    assert math.isnan(Share(2.0).doubled(math.nan))
+
+
 @pytest.mark.parametrize(
     "call",
     [
