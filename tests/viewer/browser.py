@@ -10,6 +10,13 @@ import pytest
 # viser's own remark on wheels and drags, of which nothing follows.
 HARMLESS = ("Unable to preventDefault inside passive event listener",)
 
+# Pages draw as often as they can, and here the processor draws: ten times a second is enough.
+FEWER_FRAMES = """
+const whenDrawn = window.requestAnimationFrame.bind(window);
+window.requestAnimationFrame = (callback) => setTimeout(() => whenDrawn(callback), 80);
+window.cancelAnimationFrame = window.clearTimeout;
+"""
+
 
 @contextmanager
 def opened(url, size=(1300, 480)):
@@ -26,6 +33,7 @@ def opened(url, size=(1300, 480)):
         browser = player.chromium.launch(executable_path=program, args=flags)
         page = browser.new_page(viewport={"width": size[0], "height": size[1]})
         page.set_default_timeout(120_000)
+        page.add_init_script(FEWER_FRAMES)
         page.on("console", lambda said: said.type == "error" and errors.append(said.text))
         page.on("pageerror", lambda error: errors.append(str(error)))
         origin = url.split("/")[2]

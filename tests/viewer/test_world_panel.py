@@ -39,6 +39,14 @@ def orange(picture):
     return (picture[..., 0] > 200) & (abs(picture[..., 1] - 140) < 50) & (picture[..., 2] < 80)
 
 
+def resting(page):
+    """Return the picture once the camera rests."""
+    picture, before = pixels(page), None
+    while before is None or (picture != before).any():
+        picture, before = pixels(page), picture
+    return picture
+
+
 def row(page, kind, name):
     return page.locator(f'[data-kind="{kind}"][data-name="{name}"]')
 
@@ -91,7 +99,7 @@ def test_a_model_is_followed(shown):
 
 def test_a_click_in_the_scene_selects_in_the_tree(shown):
     _, _, page = shown
-    rows, columns = np.nonzero(red(pixels(page)))
+    rows, columns = np.nonzero(red(resting(page)))
     x, y = float(columns.mean()), float(rows.mean())
     page.mouse.click(x, y)
     until(lambda: selected(page) == "box")
