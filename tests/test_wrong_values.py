@@ -199,7 +199,7 @@ MEASURED = {
 READ = {"AirPressure", "GoalPose", "Pose", "Sonar", "TreeJoint", "TreeJoint.placed", "World"}
 """Records of what a file said; engines and sensors check it."""
 LOOP = "catch_up|measure|noisy|on_update|read|set_goal|starting|stopping|update|write"
-PILOT = "angles|arm|blocked|feel|go_to|see|tick"
+PILOT = "angles|arm|blocked|go_to|set_odometry|set_scan|tick"
 TIMED = re.compile(rf"\w+\.({LOOP}|{PILOT})")
 """Steps of a loop, which are called with its clock's time."""
 OF_ONE_WORLD = {

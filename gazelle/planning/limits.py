@@ -11,6 +11,9 @@ from gazelle.errors import PlanningError
 MAX_STEPS = 100_000
 """Steps of a Cartesian path."""
 
+MAX_TRAJECTORY_POINTS = 100_000
+"""Points of a trajectory: at twenty a second, 83 minutes."""
+
 
 def checked_poses(poses: object) -> list[Pose]:
     """Return the poses of a path.
@@ -44,3 +47,22 @@ def checked_steps(steps: float, step: float) -> int:
             hint="take longer steps, or nearer poses",
         )
     return max(1, math.ceil(steps))
+
+
+def checked_duration(duration: float, interval: float) -> int:
+    """Return a number of intervals, rounded up.
+
+    Args:
+        duration: Of a trajectory [s].
+        interval: Between its points [s].
+
+    Raises:
+        PlanningError: They are too many.
+    """
+    if not duration / interval <= MAX_TRAJECTORY_POINTS:
+        raise PlanningError(
+            f"a trajectory would take {duration:.3g} s, {duration / interval:.3g} points, more than "
+            f"the limit of {MAX_TRAJECTORY_POINTS:,}",
+            hint="allow higher velocities and accelerations, or take nearer points",
+        )
+    return math.ceil(duration / interval)

@@ -1,4 +1,4 @@
-"""When to be where on a path: within limits of velocity and acceleration, at rest at both ends."""
+"""Times of the points of a path: within limits of velocity and acceleration, at rest at both ends."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
 from gazelle.errors import PlanningError
 from gazelle.planning.blended_path import PathPieces, blended
+from gazelle.planning.limits import checked_duration
 from gazelle.planning.parabolic_timing import iterative_parabolic
 from gazelle.planning.path_timing import SpeedProfile
 
@@ -109,7 +110,7 @@ def parameterize(
         tolerance: Largest deviation at corners.
 
     Raises:
-        PlanningError: There is no point, or the algorithm is unknown.
+        PlanningError: There is no point, the algorithm is unknown, or the motion takes too long.
     """
     if algorithm not in get_args(TimeAlgorithm):
         raise PlanningError(f"there is no time parameterization '{algorithm}'")
@@ -176,7 +177,7 @@ def _ceilings(path: PathPieces, places: Floats) -> Floats:
 def _moments(moments: Floats, pushes: Floats) -> Floats:
     """Return times of the result: uniform ones, and those where the acceleration jumps."""
     end = float(moments[-1])
-    even = np.linspace(0.0, end, max(3, math.ceil(end / RESAMPLE) + 1))
+    even = np.linspace(0.0, end, max(3, checked_duration(end, RESAMPLE) + 1))
     gap = float(even[1])
     jumps = moments[1:-1][np.abs(np.diff(pushes)) > _JUMP * np.abs(pushes).max()]
     jumps = jumps[(jumps > gap / 20.0) & (jumps < end - gap / 20.0)]

@@ -109,3 +109,9 @@ def test_what_cannot_be(points, kind, words):
     limits = PathLimits(np.ones(2), np.ones(2))
     with pytest.raises(PlanningError, match=words):
         parameterize(points, limits, kind)
+
+
+def test_a_trajectory_of_too_many_points_is_refused():
+    limits = PathLimits(np.array([1e-3]), np.array([1.0]))
+    with pytest.raises(PlanningError, match=r"2.01e\+05 points, more than the limit of 100,000"):
+        parameterize(np.array([[0.0], [10.0]]), limits)

@@ -309,13 +309,13 @@ def test_a_button_calls_a_service_once(commanded, make_node):
     asked = []
     node = make_node("server")
     node.serve("/lights", kind, lambda request: asked.append(request.data) or [True, ""])
-    _, send = commanded(
+    made, send = commanded(
         {"lights": {"type": "service", "service_name": "/lights", "service_request": {"data": True},
                     "buttons": [0]}}
     )  # fmt: skip
     for _ in range(2):
         send([], [1])
-    until(lambda: asked)
+    until(lambda: asked and not made.commands[0]._thread.is_alive())
     send([], [0])
     send([], [1])
     until(lambda: len(asked) == 2)
