@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import threading
 import weakref
@@ -19,6 +20,7 @@ class _Worker:
         self._work: Callable[[], Any] | None = None
         self._value: Any = None
         self._error: BaseException | None = None
+        self._over = True
         self._go, self._done = threading.Lock(), threading.Lock()
         self._go.acquire()
         self._done.acquire()
@@ -27,16 +29,15 @@ class _Worker:
 
     def start(self, work: Callable[[], Any] | None) -> None:
         """Start work; None ends the thread."""
-        self._work = work
+        self._work, self._over = work, False
         self._go.release()
 
     def outcome(self) -> tuple[Any, BaseException | None]:
         """Wait for what ``start`` began: what it returned, and what it or Ctrl-C raised."""
         stop = None
-        while True:
+        while not self._over:  # Ctrl-C may come when the lock has just been acquired
             try:
                 self._done.acquire()
-                break
             except KeyboardInterrupt as interruption:  # no other code can wait for it later
                 stop = interruption
         value, error = self._value, stop or self._error
@@ -58,7 +59,9 @@ class _Worker:
                 self._value = self._work()
             except BaseException as error:  # noqa: BLE001  the waiting thread gets it
                 self._error = error
-            self._done.release()
+            self._over = True
+            with contextlib.suppress(RuntimeError):  # free where ``outcome`` did not need it
+                self._done.release()
 
 
 class WorkerPool:

@@ -2,6 +2,7 @@
 
 import gc
 import threading
+import time
 
 import pytest
 
@@ -70,3 +71,39 @@ def test_threads_end_when_it_is_closed_or_forgotten():
 def test_nobody_is_no_crew():
     with pytest.raises(EngineError, match="at least 1"):
         WorkerPool(0)
+
+
+class InterruptedLock:
+    """A lock whose holder is interrupted as soon as it has it, once."""
+
+    def __init__(self, lock):
+        self.lock, self.interrupts = lock, 1
+
+    def acquire(self):
+        self.lock.acquire()
+        if self.interrupts:
+            self.interrupts -= 1
+            raise KeyboardInterrupt
+
+    def release(self):
+        self.lock.release()
+
+
+def test_ctrl_c_when_a_part_has_just_ended_is_no_deadlock(pool):
+    def work(first, last, part):
+        if part == 1:
+            time.sleep(0.001)  # the caller waits
+        return part
+
+    pool.share(lambda *_: None, 30, 10)
+    lock = pool._workers[0]._done = InterruptedLock(pool._workers[0]._done)
+    interrupted = 0
+    for _ in range(200):
+        lock.interrupts = 1
+        try:
+            assert pool.share(work, 30, 10) == [0, 1, 2]
+        except KeyboardInterrupt:
+            interrupted += 1
+    assert interrupted
+    lock.interrupts = 0
+    assert pool.share(work, 30, 10) == [0, 1, 2]
