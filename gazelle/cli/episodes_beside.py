@@ -36,7 +36,9 @@ def show_episodes(result: Evaluation, port: int) -> None:
     from gazelle.training.rerun import Rerun, worst_first
     from gazelle.viewer.episodes_page import EpisodesPage
 
-    records = [record for record in worst_first(result) if record.place is not None]
+    records = [(each, each.place) for each in worst_first(result) if each.place is not None]
+    if not records:
+        raise TaskError("episodes that workers played cannot be played again here")
     with Rerun(result) as rerun:
         owner = simulated(rerun.env)
         if owner is None:
@@ -51,17 +53,16 @@ def show_episodes(result: Evaluation, port: int) -> None:
             found: Floats | None = getattr(owner, "goal_places", None)
             return found
 
-        titles = [f"{number}: {_brief(record)}" for number, record in enumerate(records, 1)]
+        titles = [f"{number}: {_brief(record)}" for number, (record, _) in enumerate(records, 1)]
         with EpisodesPage(owner.simulation, goals, port, titles) as page:
             sys.stdout.write(f"the episodes begin when the page is open\nview {page.url}\n")
             sys.stdout.flush()
             pace = _EpisodePace(page, rerun.period)
             number: int | None = 0
             while number is not None:
-                record = records[number]
-                copy = 0 if record.place is None else record.place.copy
+                record, place = records[number]
                 text = f"{number + 1} of {len(records)}: {describe(record, rerun.period)}"
-                page.show(copy * nworld // result.copies, number, text)
+                page.show(place.copy * nworld // result.copies, number, text)
                 with suppress(_OtherEpisode):
                     rerun.play(record, pace.wait)
                 number = pace.following(number, len(records))

@@ -26,10 +26,11 @@ from gazelle.simulation.registry import register
 from gazelle.simulation.replay import Replay
 from gazelle.simulation.robot import Robot, SensorUnit
 from gazelle.simulation.sensors import SensorOutput
-from gazelle.simulation.settings import Setting, Tunable, Tuning
+from gazelle.simulation.settings import Setting, Tuning
 from gazelle.simulation.simulation import Simulation
 from gazelle.simulation.topics import absolute, namespace_of
 from gazelle.simulation.values import JointStates, Odometry, Transform, Transforms, WrenchValue
+from gazelle_ros.base.tuned_fields import Tunable
 
 __all__ = [
     "BasePlugin",

@@ -10,8 +10,8 @@ import numpy as np
 from gazelle.array_types import Floats
 from gazelle.description import Model, World
 from gazelle.engines import Engine, RangeRays
+from gazelle.engines.world_rays import cast_in_world
 from gazelle.errors import SimulationWarning, describe
-from gazelle.rotations import conjugate, rotate
 
 _PERIOD_NS = 1_000_000_000
 """Simulated time between two looks; falling by `_DEPTH` takes longer [ns]."""
@@ -91,11 +91,11 @@ class FallWatch:
     def _has_ground(self, model: Model, world: int) -> bool:
         """Return whether there is something below a model or beside that."""
         name, worlds = _first_link(model), np.array([world])
-        back = conjugate(self._engine.links[name].placement(worlds).quaternion[0])
+        place = self._engine.links[name].placement(worlds).position[0]
         ring = np.stack([np.cos(_TURNS), np.sin(_TURNS), np.zeros(len(_TURNS))], axis=1)
-        origins = np.vstack([radius * ring for radius in _RINGS])
+        origins = place + np.vstack([radius * ring for radius in _RINGS])
         down = np.broadcast_to(_DOWN, origins.shape)
-        hits = self._engine.links[name].cast_rays(rotate(back, origins), rotate(back, down), worlds)
+        hits = cast_in_world(self._engine, name, origins, down, worlds)
         return bool(np.isfinite(hits.distance).any())
 
     def _cause(self, model: Model) -> str:

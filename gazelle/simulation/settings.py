@@ -8,11 +8,11 @@ leaves them as they are.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
 from gazelle.errors import SimulationError, did_you_mean
 from gazelle.simulation.state_lock import StatePart, between_steps
+from gazelle_ros.base.tuned_fields import Tunable
 
 T = TypeVar("T")
 
@@ -63,32 +63,6 @@ class Setting(StatePart, Generic[T]):
         self.value = value
         if self._receive is not None:
             self._receive(value)
-
-
-@dataclass(frozen=True, slots=True)
-class Tunable:
-    """A number, flag or text that can be changed while its owner runs.
-
-    Attributes:
-        name: Its name.
-        default: Its type is that of all values: bool, int, str or float.
-        least: Smallest value.
-        most: Largest value.
-        description: For people.
-    """
-
-    name: str
-    default: Any
-    least: Any
-    most: Any
-    description: str
-
-    def clamp(self, value: Any) -> Any:
-        """Return the nearest allowed value."""
-        kind = type(self.default)
-        if kind in (bool, str):
-            return kind(value)
-        return kind(min(max(value, self.least), self.most))
 
 
 class Tuning(StatePart):

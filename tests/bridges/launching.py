@@ -86,7 +86,7 @@ class Launched:
 
     @property
     def ended(self):
-        """Whether the launch is over."""
+        """True once the launch is over."""
         return self._process.poll() is not None
 
     def look(self):

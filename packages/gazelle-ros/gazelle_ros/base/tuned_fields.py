@@ -1,4 +1,4 @@
-"""Fields of a dataclass of settings that dynamic_reconfigure changes, with their limits."""
+"""Values that dynamic_reconfigure changes, with their limits, and dataclasses of them."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ def tunable(default: Any, least: Any = "", most: Any = "", description: str = ""
 
 
 @dataclass(frozen=True, slots=True)
-class TunedSetting:
-    """A setting that can be changed.
+class Tunable:
+    """A number, flag or text that can be changed while its owner runs.
 
     Attributes:
-        name: Of the parameter.
-        default: Its type is that of all values.
+        name: Its name.
+        default: Its type is that of all values: bool, int, str or float.
         least: Smallest value.
         most: Largest value.
         description: For people.
@@ -45,10 +45,10 @@ class TunedSetting:
         return kind(value if kind in (bool, str) else min(max(value, self.least), self.most))
 
 
-def tuned_fields(settings: Any) -> Mapping[str, TunedSetting]:
+def tuned_fields(settings: Any) -> Mapping[str, Tunable]:
     """Return the fields of a dataclass that are `tunable`, by name."""
     return {
-        each.name: TunedSetting(each.name, each.default, *each.metadata["tuned"])
+        each.name: Tunable(each.name, each.default, *each.metadata["tuned"])
         for each in fields(settings)
         if "tuned" in each.metadata
     }
