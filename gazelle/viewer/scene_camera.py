@@ -12,13 +12,13 @@ from PIL import Image
 from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Picture
 from gazelle.description.pose import Vector3
-from gazelle.engines.world_rays import cast_in_world
-from gazelle.errors import EngineError, Error
+from gazelle.errors import Error
 from gazelle.rendering import LiveScene, PinholeLens
 from gazelle.sensors import look_at
 from gazelle.simulation import Simulation
 from gazelle.simulation.inputs import one_world
 from gazelle.viewer.page.shapes import extent_of_world
+from gazelle.viewer.sight import distance_seen
 
 _GAMMA = 1.35  # lifts the shadows to what a screen shows well
 _FINER = 2  # drawn so many times larger, and made smaller: smooth edges
@@ -104,25 +104,18 @@ class SceneCamera:
         The nearest to the present one along which nothing but the model is met; the present one if
         there is none.
         """
-        simulation = self._simulation
-        robot, engine = simulation.robots[self._follow], simulation.engine
-        first = robot.first_link
-        if first is None:
-            return present
-        offsets = np.array([present, *_candidate_offsets()])
-        target = robot.placement(self._world).position[0] + self._target
-        lengths = np.linalg.norm(offsets, axis=1)
-        directions = -offsets / lengths[:, None]
-        try:
-            hits = cast_in_world(engine, first.name, target + offsets, directions, self._world)
-        except EngineError:  # the plane has rays of one height only
-            return present
-        clear = (hits.distance[0] >= lengths - _NEAR) & ~hits.from_inside[0]
-        if not clear.any():
-            return present
-        change = np.linalg.norm(offsets - present, axis=1)
-        found: Floats = offsets[int(np.where(clear, change, np.inf).argmin())]
-        return found
+        model = self._simulation.robots[self._follow]
+        target = model.placement(self._world).position[0] + self._target
+
+        def clear(offset: Floats) -> bool:
+            length = float(np.linalg.norm(offset))
+            eye, along = target + offset, -offset / length
+            return distance_seen(self._simulation, self._world, eye, along) >= length - _NEAR
+
+        nearest = sorted(
+            _candidate_offsets(), key=lambda each: float(np.linalg.norm(each - present))
+        )
+        return next(filter(clear, (present, *nearest)), present)
 
     def _usual(self, eye: Vector3 | None, target: Vector3 | None) -> tuple[Floats, Floats]:
         """Return eye and target, by default from the size of the scene."""

@@ -12,11 +12,11 @@ from tests.viewer.lamp_world import LAMP_WORLD
 WORLD = np.array([0])
 
 
-@pytest.fixture(scope="module")
-def room(tmp_path_factory):
+@pytest.fixture(scope="module", params=["mujoco", "planar"])
+def room(request, tmp_path_factory):
     file = tmp_path_factory.mktemp("worlds") / "room.world"
     file.write_text(LAMP_WORLD)
-    with Simulation(file, threads=1) as simulation:
+    with Simulation(file, request.param, threads=1) as simulation:
         yield simulation
 
 
@@ -33,10 +33,3 @@ def test_a_thing_lands_on_the_surface_or_before_it(room, eye, through, lands):
     eye, through = np.array(eye), np.array(through)
     found = landing_point(room, WORLD, eye, through - eye)
     np.testing.assert_allclose(found, lands, atol=0.011)
-
-
-def test_in_the_plane_everything_lands_on_zero():
-    with Simulation("turtlebot3_stage_1", "planar", threads=1) as simulation:
-        eye = np.array([0.0, 0.0, 2.0])
-        found = landing_point(simulation, WORLD, eye, np.array([0.5, 0.0, -1.0]))
-        np.testing.assert_allclose(found, [1.0, 0.0, 0.0], atol=1e-9)

@@ -65,14 +65,17 @@ WALL = """<sdf version="1.7"><model name="wall"><static>1</static><link name="l"
 </model></sdf>"""
 
 
-@pytest.mark.parametrize(("x", "thick"), [(-0.6, 0.1), (-1.5, 1.0), (-3.0, 4.0)])
-def test_a_camera_that_follows_looks_from_where_nothing_is_in_the_way(x, thick):
-    with Simulation("empty", threads=1) as sim:
+@pytest.mark.parametrize(
+    ("engine", "x", "thick"),
+    [("mujoco", -0.6, 0.1), ("mujoco", -1.5, 1.0), ("mujoco", -3.0, 4.0), ("planar", -1.5, 1.0)],
+)
+def test_a_camera_that_follows_looks_from_where_nothing_is_in_the_way(engine, x, thick):
+    with Simulation("empty", engine, threads=1) as sim:
         robot = sim.spawn("turtlebot3_burger")
         sim.spawn(formats.load_model_string(WALL.format(x, thick)))
         camera = SceneCamera(sim, size=(240, 160), follow="turtlebot3_burger")
         with_it = camera.look()
-        robot.set_pose((0.0, 0.0, -5.0))
+        robot.set_pose((50.0, 0.0, 0.0))
         camera._follow, camera._dodges = "", False
         gone = np.abs(camera.look().astype(int) - with_it).max(axis=2) > 25
         assert gone[60:100, 90:150].mean() > 0.05

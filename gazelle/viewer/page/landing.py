@@ -7,9 +7,8 @@ import math
 import numpy as np
 
 from gazelle.array_types import Floats, Worlds
-from gazelle.engines.world_rays import cast_in_world
-from gazelle.errors import EngineError
 from gazelle.simulation import Simulation
+from gazelle.viewer.sight import distance_seen
 
 _BEFORE = 0.01  # of a surface that is hit, from where things fall down [m]
 _DOWN = np.array([0.0, 0.0, -1.0])
@@ -22,7 +21,7 @@ def landing_point(simulation: Simulation, world: Worlds, eye: Floats, along: Flo
     of z = 0 where the ray meets nothing.
 
     Args:
-        simulation: With any engine; in the plane everything lands on z = 0.
+        simulation: With any engine.
         world: Number of the world, shape (1,).
         eye: Start of the ray [m], shape (3,).
         along: Direction of the ray, shape (3,).
@@ -31,29 +30,14 @@ def landing_point(simulation: Simulation, world: Worlds, eye: Floats, along: Flo
         Point [m], shape (3,); NaN for none.
     """
     along = along / np.linalg.norm(along)
-    reach = _distance(simulation, world, eye, along)
+    reach = distance_seen(simulation, world, eye, along)
     if math.isfinite(reach):
         before = eye + (reach - _BEFORE) * along
-        height = _distance(simulation, world, before, _DOWN)
+        height = distance_seen(simulation, world, before, _DOWN)
         if math.isfinite(height):
             found: Floats = np.round(before + height * _DOWN, 6)
             return found
     return on_level(eye, eye + along, 0.0)
-
-
-def _distance(simulation: Simulation, world: Worlds, start: Floats, along: Floats) -> float:
-    """Return the length of a ray to the nearest collision shape [m]; infinite for none."""
-    engine = simulation.engine
-    link = next(
-        (f"{model.name}::{each.name}" for model in engine.world.models for each in model.links),
-        None,
-    )
-    if link is None:
-        return math.inf
-    try:
-        return float(cast_in_world(engine, link, start[None], along[None], world).distance[0, 0])
-    except EngineError:  # the plane has level rays only
-        return math.inf
 
 
 def on_level(eye: Floats, through: Floats, height: float) -> Floats:
