@@ -66,7 +66,7 @@ class Decoder:
     read: Callable[[Any], Any]
 
 
-class Triple(Protocol):
+class XyzMessage(Protocol):
     """Point or vector."""
 
     x: float
@@ -80,7 +80,7 @@ class Stamped(Protocol):
     header: std_msgs.msg.Header
 
 
-def set_point(target: Triple, values: Iterable[float]) -> None:
+def set_point(target: XyzMessage, values: Iterable[float]) -> None:
     """Fill x, y and z."""
     target.x, target.y, target.z = (float(value) for value in values)
 
@@ -106,7 +106,7 @@ def set_twist(
     set_point(target.angular, angular)
 
 
-def point(message: Triple) -> tuple[float, float, float]:
+def point(message: XyzMessage) -> tuple[float, float, float]:
     """Return x, y and z of a point or vector."""
     return (message.x, message.y, message.z)
 

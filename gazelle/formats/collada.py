@@ -20,15 +20,15 @@ from numpy.typing import NDArray
 from gazelle.errors import FormatError
 from gazelle.formats import xml
 from gazelle.formats.limits import MAX_NODES, MAX_TRIANGLES
-from gazelle.formats.mesh_looks import PLAIN, MeshLook
+from gazelle.formats.mesh_materials import PLAIN, MeshMaterial
 
-Piece = tuple[str, NDArray[np.float64], NDArray[np.int32], MeshLook]
+Piece = tuple[str, NDArray[np.float64], NDArray[np.int32], MeshMaterial]
 
 MAX_DEPTH = 64
 
 
 def parse(data: bytes) -> list[Piece]:
-    """Parse name, vertices (n, 3), faces (m, 3) and look of each geometry in the scene.
+    """Parse name, vertices (n, 3), faces (m, 3) and material of each geometry in the scene.
 
     Raises:
         FormatError: The file is no valid COLLADA, or holds no scene.
@@ -43,10 +43,10 @@ def parse(data: bytes) -> list[Piece]:
     for node in document.scene.nodes:
         for found, matrix in _instances(node, np.eye(4), 0, visits):
             geometry = _geometry(found)
-            name, looks = geometry.name or geometry.id or "", _looks(found)
+            name, materials = geometry.name or geometry.id or "", _materials(found)
             for primitive in geometry.primitives:
-                look = looks.get(primitive.material, PLAIN)
-                for piece in _piece(name, primitive, look, matrix, metre):
+                material = materials.get(primitive.material, PLAIN)
+                for piece in _piece(name, primitive, material, matrix, metre):
                     pieces.append(piece)
                     triangles += len(piece[2])
             if triangles > MAX_TRIANGLES:
@@ -110,22 +110,22 @@ def _geometry(node: Any) -> Any:
     return getattr(node, "geometry", None) or getattr(node.controller, "geometry", None)
 
 
-def _looks(node: Any) -> dict[str, MeshLook]:
-    """Return the looks that primitives name by symbols."""
-    return {bound.symbol: _look(bound.target) for bound in node.materials}
+def _materials(node: Any) -> dict[str, MeshMaterial]:
+    """Return the materials that primitives name by symbols."""
+    return {bound.symbol: _mesh_material(bound.target) for bound in node.materials}
 
 
-def _look(material: Any) -> MeshLook:
+def _mesh_material(material: Any) -> MeshMaterial:
     diffuse = getattr(getattr(material, "effect", None), "diffuse", None)
     if isinstance(diffuse, tuple | list) and len(diffuse) >= len("rgb"):
         red, green, blue = (min(max(float(share), 0.0), 1.0) for share in diffuse[:3])
-        return MeshLook((red, green, blue))
+        return MeshMaterial((red, green, blue))
     image = getattr(getattr(getattr(diffuse, "sampler", None), "surface", None), "image", None)
-    return MeshLook(texture=str(getattr(image, "path", "") or ""))
+    return MeshMaterial(texture=str(getattr(image, "path", "") or ""))
 
 
 def _piece(
-    name: str, primitive: Any, look: MeshLook, matrix: NDArray[np.float64], metre: float
+    name: str, primitive: Any, material: MeshMaterial, matrix: NDArray[np.float64], metre: float
 ) -> Iterator[Piece]:
     triangles = primitive
     if hasattr(primitive, "triangleset"):
@@ -139,8 +139,8 @@ def _piece(
     faces, uv = inverse.reshape(-1, 3).astype(np.int32), _uv(triangles)
     if np.linalg.det(matrix[:3, :3]) < 0.0:
         faces, uv = faces[:, ::-1], None if uv is None else uv[:, ::-1]
-    worn = MeshLook(look.color, look.texture, uv if look.texture else None)
-    yield name, placed * metre, np.ascontiguousarray(faces), worn
+    textured = MeshMaterial(material.color, material.texture, uv if material.texture else None)
+    yield name, placed * metre, np.ascontiguousarray(faces), textured
 
 
 def _uv(triangles: Any) -> NDArray[np.float64] | None:

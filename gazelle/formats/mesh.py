@@ -19,10 +19,10 @@ from numpy.typing import NDArray
 from gazelle.argument_checks import checked
 from gazelle.description import Mesh, Source, Vector3
 from gazelle.errors import FormatError
-from gazelle.formats import collada, stl, wavefront, wavefront_looks
+from gazelle.formats import collada, stl, wavefront, wavefront_materials
 from gazelle.formats.lfs import refuse_pointer
 from gazelle.formats.limits import read_bounded
-from gazelle.formats.mesh_looks import PLAIN, MeshLook, look_of_trimesh
+from gazelle.formats.mesh_materials import PLAIN, MeshMaterial, material_of_trimesh
 from gazelle.geometry.mesh_data import MeshData
 
 CACHED = 256
@@ -36,13 +36,13 @@ class MeshPart:
         name: Of the node or object in the file; may be empty.
         vertices: Positions [m], shape (n, 3).
         faces: Corners of each triangle, shape (m, 3).
-        look: Colours from the file.
+        material: Colours from the file.
     """
 
     name: str
     vertices: NDArray[np.float64]
     faces: NDArray[np.int32]
-    look: MeshLook = PLAIN
+    material: MeshMaterial = PLAIN
 
 
 @checked(FormatError, after=True)
@@ -65,15 +65,15 @@ def load_mesh_parts(mesh: Mesh) -> tuple[MeshPart, ...]:
     """
     parts = _parts_of(mesh)
     if mesh.path is not None and mesh.path.suffix.lower() == ".obj":
-        parts = [MeshPart(*piece) for piece in wavefront_looks.painted(mesh.path, parts)]
+        parts = [MeshPart(*piece) for piece in wavefront_materials.painted(mesh.path, parts)]
     vertices = _placed(_joined(parts), mesh).vertices
     turned = slice(None, None, -1) if np.prod(mesh.scale) < 0.0 else slice(None)
     placed, begin = [], 0
     for part in parts:
         end = begin + len(part.vertices)
-        uv = None if part.look.uv is None else part.look.uv[:, turned]
-        look = replace(part.look, uv=uv)
-        placed.append(MeshPart(part.name, vertices[begin:end], part.faces[:, turned], look))
+        uv = None if part.material.uv is None else part.material.uv[:, turned]
+        material = replace(part.material, uv=uv)
+        placed.append(MeshPart(part.name, vertices[begin:end], part.faces[:, turned], material))
         begin = end
     return tuple(placed)
 
@@ -197,7 +197,7 @@ def _parse_with_trimesh(data: bytes, kind: str) -> list[MeshPart]:
             piece.metadata.get("name", ""),
             np.asarray(piece.vertices, np.float64),
             np.asarray(piece.faces, np.int32),
-            look_of_trimesh(piece),
+            material_of_trimesh(piece),
         )
         for piece in scene.dump()
         if hasattr(piece, "faces")

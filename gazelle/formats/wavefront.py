@@ -1,4 +1,4 @@
-"""Wavefront OBJ files: positions and faces; materials are in `wavefront_looks`.
+"""Wavefront OBJ files: positions and faces; materials are in `wavefront_materials`.
 
 Not by trimesh: ``docs/explanation/decisions/009-own-stl-and-obj.md``.
 """

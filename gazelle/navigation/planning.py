@@ -45,9 +45,9 @@ def _cheapest_cells(
     grid: OccupancyGrid, start: Floats, goal: Floats, limits: BaseLimits, room: float
 ) -> list[Cell] | None:
     """Return the cells of the cheapest path with a clearance [m]; None without one."""
-    prices = _prices(grid, start, room)
-    last = _nearest_open(grid, prices, start, goal, limits)
-    return None if last is None else find_path(prices, _cell(grid, start), last)
+    costs = _cell_costs(grid, start, room)
+    last = _nearest_open(grid, costs, start, goal, limits)
+    return None if last is None else find_path(costs, _cell(grid, start), last)
 
 
 def is_blocked(grid: OccupancyGrid, path: Floats, here: Floats, limits: BaseLimits) -> bool:
@@ -57,14 +57,14 @@ def is_blocked(grid: OccupancyGrid, path: Floats, here: Floats, limits: BaseLimi
     return bool(grid.is_near(rest, limits.radius + 0.5 * limits.clearance).any())
 
 
-def _prices(grid: OccupancyGrid, start: Floats, room: float) -> Floats:
-    prices = np.ones(grid.cells.shape)
-    for distance, price in reversed(_NEAR):
-        prices[grid.near_obstacles(room + distance)] = price
-    prices[grid.near_obstacles(room)] = np.inf
+def _cell_costs(grid: OccupancyGrid, start: Floats, room: float) -> Floats:
+    costs = np.ones(grid.cells.shape)
+    for distance, cost in reversed(_NEAR):
+        costs[grid.near_obstacles(room + distance)] = cost
+    costs[grid.near_obstacles(room)] = np.inf
     here = _around(grid, start, room)
-    prices[here & np.isinf(prices) & ~grid.occupied] = _TIGHT
-    return prices
+    costs[here & np.isinf(costs) & ~grid.occupied] = _TIGHT
+    return costs
 
 
 def _around(grid: OccupancyGrid, place: Floats, distance: float) -> Bools:
@@ -82,11 +82,11 @@ def _cell(grid: OccupancyGrid, place: Floats) -> Cell:
 
 
 def _nearest_open(
-    grid: OccupancyGrid, prices: Floats, start: Floats, goal: Floats, limits: BaseLimits
+    grid: OccupancyGrid, costs: Floats, start: Floats, goal: Floats, limits: BaseLimits
 ) -> Cell | None:
     """Return the cell of the goal, or an open one near to it."""
     wished = _cell(grid, goal)
-    open_to = prices < _TIGHT
+    open_to = costs < _TIGHT
     if open_to[wished]:
         return wished
     within = limits.radius + limits.clearance + _GOAL_WITHIN

@@ -18,7 +18,7 @@ import numpy as np
 from gazelle.array_types import Floats
 from gazelle.description.occupancy import OccupancyMap
 from gazelle.navigation.following import Pose2
-from gazelle.navigation.refuges import RefugeMap, RobotDisc
+from gazelle.navigation.waiting_places import RobotDisc, WaitingPlaceMap
 from gazelle_ros.base.parameter_values import Values, fields_of
 
 _PERIOD: Final = 0.5
@@ -28,9 +28,9 @@ _MOVED: Final = 0.3
 _MOST_ENCOUNTERS: Final = 12
 """For one goal of a robot; then it is left to ``move_base``, which gives up at last."""
 _STUCK: Final = 20.0
-"""Time that a robot may be stuck before its refuge, until others stop waiting for it [s]."""
+"""Time that a robot may be stuck before its waiting place, until others stop waiting for it [s]."""
 _BESIDE: Final = 0.8
-"""Distance of other moving robots that keeps a robot in its refuge [m]."""
+"""Distance of other moving robots that keeps a robot in its waiting place [m]."""
 _RETRY: Final = 3.0
 """After a check of robots that cannot yield [s]."""
 
@@ -60,7 +60,7 @@ class RightOfWaySettings:
         return cls(**fields_of(cls, own if isinstance(own, Mapping) else {}))
 
 
-class Traveller(Protocol):
+class NavigatingRobot(Protocol):
     """A robot with a goal.
 
     Attributes:
@@ -92,7 +92,7 @@ class Traveller(Protocol):
     def step_aside(self, x: float, y: float, time: float) -> None:
         """Move to a place and wait there."""
 
-    def go_on(self, time: float, known: RefugeMap, others: Sequence[RobotDisc]) -> None:
+    def go_on(self, time: float, known: WaitingPlaceMap, others: Sequence[RobotDisc]) -> None:
         """Resume its own goal, and clear observations of neither the map nor other robots."""
 
 
@@ -111,15 +111,15 @@ class _Waiting:
     """A robot that waits until another one has passed.
 
     Attributes:
-        traveller: Robot that waits.
+        robot: Robot that waits.
         goal: Its own; with another one it is its own master again.
-        refuge: Place to wait; None if it obstructs nothing.
+        waiting_place: Place to wait; None if it obstructs nothing.
         until: Distance that the other one has to advance on its path [m].
     """
 
-    traveller: Traveller
+    robot: NavigatingRobot
     goal: Pose2 | None
-    refuge: RobotDisc | None
+    waiting_place: RobotDisc | None
     until: float
 
 
@@ -138,7 +138,7 @@ class _Encounter:
         under_way: Whether the leader has set off.
     """
 
-    leader: Traveller
+    leader: NavigatingRobot
     goal: Pose2 | None
     path: Floats
     along: Floats
@@ -159,18 +159,18 @@ class RightOfWay:
         self.due = -math.inf
         self._watches: dict[str, _Watch] = {}
         self._encounters: list[_Encounter] = []
-        self._present: Sequence[Traveller] = ()
-        self._maps: dict[int, tuple[OccupancyMap, RefugeMap]] = {}
+        self._present: Sequence[NavigatingRobot] = ()
+        self._maps: dict[int, tuple[OccupancyMap, WaitingPlaceMap]] = {}
 
-    def update(self, time: float, travellers: Sequence[Traveller]) -> None:
+    def update(self, time: float, robots: Sequence[NavigatingRobot]) -> None:
         """Update all robots, when it is due.
 
         Args:
             time: Now [s].
-            travellers: The robots; those without a goal stand where they are.
+            robots: The robots; those without a goal stand where they are.
         """
         self.due = time + _PERIOD
-        ordered = sorted(travellers, key=lambda each: (-each.right_of_way.priority, each.name))
+        ordered = sorted(robots, key=lambda each: (-each.right_of_way.priority, each.name))
         self._present = ordered
         for each in ordered:
             self._watch(time, each)
@@ -182,36 +182,38 @@ class RightOfWay:
 
     # Standing robots ---------------------------------------------------------------------------
 
-    def _watch(self, time: float, traveller: Traveller) -> None:
-        body = traveller.body
+    def _watch(self, time: float, robot: NavigatingRobot) -> None:
+        body = robot.body
         if body is None:
             return
-        here, watch = (body.x, body.y), self._watches.get(traveller.name)
-        if watch is None or watch.goal != traveller.goal:
-            self._watches[traveller.name] = _Watch(here, time, traveller.goal)
+        here, watch = (body.x, body.y), self._watches.get(robot.name)
+        if watch is None or watch.goal != robot.goal:
+            self._watches[robot.name] = _Watch(here, time, robot.goal)
         elif math.dist(here, watch.place) > _MOVED:
             watch.place, watch.since = here, time
 
-    def _stands(self, time: float, traveller: Traveller) -> bool:
+    def _stands(self, time: float, robot: NavigatingRobot) -> bool:
         """Return whether a robot has a goal but makes no progress."""
-        watch = self._watches.get(traveller.name)
+        watch = self._watches.get(robot.name)
         return (
             watch is not None
-            and traveller.goal is not None
+            and robot.goal is not None
             and watch.encounters < _MOST_ENCOUNTERS
-            and time - watch.since >= traveller.right_of_way.patience
+            and time - watch.since >= robot.right_of_way.patience
         )
 
-    def _map(self, grid: OccupancyMap) -> RefugeMap:
+    def _map(self, grid: OccupancyMap) -> WaitingPlaceMap:
         """Return the map of a grid, made once for each."""
         found = self._maps.get(id(grid))
         if found is None or found[0] is not grid:
-            found = self._maps[id(grid)] = grid, RefugeMap(grid)
+            found = self._maps[id(grid)] = grid, WaitingPlaceMap(grid)
         return found[1]
 
     # Waiting relations -------------------------------------------------------------------
 
-    def _meet(self, time: float, free: Sequence[Traveller], everyone: Sequence[Traveller]) -> None:
+    def _meet(
+        self, time: float, free: Sequence[NavigatingRobot], everyone: Sequence[NavigatingRobot]
+    ) -> None:
         """Resume the first robot of a group that blocks itself."""
         standing = [each for each in free if self._stands(time, each)]
         paths = {each.name: self._path_of(each) for each in standing}
@@ -231,8 +233,8 @@ class RightOfWay:
                 for each in members:
                     self._watches[each.name].since += _RETRY
 
-    def _path_of(self, traveller: Traveller) -> Floats:
-        goal, grid, body = traveller.goal, traveller.grid, traveller.body
+    def _path_of(self, robot: NavigatingRobot) -> Floats:
+        goal, grid, body = robot.goal, robot.grid, robot.body
         if goal is None or grid is None or body is None:
             return np.zeros((0, 2))
         return self._map(grid).path(body, goal)
@@ -240,10 +242,10 @@ class RightOfWay:
     def _begin(
         self,
         time: float,
-        leader: Traveller,
+        leader: NavigatingRobot,
         path: Floats,
-        members: Sequence[Traveller],
-        everyone: Sequence[Traveller],
+        members: Sequence[NavigatingRobot],
+        everyone: Sequence[NavigatingRobot],
     ) -> bool:
         """Start an encounter: others yield to one, if there is room."""
         reached = {each.name: _blocks(each, leader, path) for each in members}
@@ -266,9 +268,9 @@ class RightOfWay:
             self._watches[name].encounters += 1
         leader.stand()
         for one in waiting:
-            one.traveller.stand()
-            if one.refuge is not None:
-                one.traveller.step_aside(one.refuge.x, one.refuge.y, time)
+            one.robot.stand()
+            if one.waiting_place is not None:
+                one.robot.step_aside(one.waiting_place.x, one.waiting_place.y, time)
         self._encounters.append(
             _Encounter(leader, leader.goal, path, along, waiting, time, involved)
         )
@@ -276,20 +278,20 @@ class RightOfWay:
 
     def _steps_aside(
         self,
-        leader: Traveller,
+        leader: NavigatingRobot,
         path: Floats,
         along: Floats,
-        obstructing: Sequence[Traveller],
+        obstructing: Sequence[NavigatingRobot],
         fixed: Sequence[RobotDisc],
     ) -> list[_Waiting]:
-        """Return refuges for the robots on a leader's path; empty if one of them has none."""
+        """Return waiting places for the robots on a leader's path; empty if one of them has none."""
         first, found = leader.body, list[_Waiting]()
         taken: list[RobotDisc] = []
         for each in obstructing:
             body, grid = each.body, each.grid
             if first is None or body is None or grid is None:
                 return []
-            place = self._map(grid).refuge(body, first, path, fixed, taken)
+            place = self._map(grid).waiting_place(body, first, path, fixed, taken)
             if place is None:
                 return []
             taken.append(place)
@@ -300,19 +302,17 @@ class RightOfWay:
 
     # Continuing ---------------------------------------------------------------------------
 
-    def _go_on(self, time: float, met: _Encounter, present: Sequence[Traveller]) -> bool:
+    def _go_on(self, time: float, met: _Encounter, present: Sequence[NavigatingRobot]) -> bool:
         """Advance an encounter; returns whether it lasts."""
         met.waiting = [
-            each
-            for each in met.waiting
-            if each.traveller in present and each.traveller.goal == each.goal
+            each for each in met.waiting if each.robot in present and each.robot.goal == each.goal
         ]
         leader, body = met.leader, met.leader.body
         if leader not in present or leader.goal != met.goal or body is None:
             return self._end(time, met)
         if not met.under_way:
-            going = [each for each in met.waiting if each.refuge and not each.traveller.aside]
-            since = [self._watches[each.traveller.name].since for each in going]
+            going = [each for each in met.waiting if each.waiting_place and not each.robot.aside]
+            since = [self._watches[each.robot.name].since for each in going]
             if not going or time - max(met.begun, *since) > _STUCK:
                 self._send(time, leader)
                 met.under_way = True
@@ -320,29 +320,29 @@ class RightOfWay:
             return True
         come = float(met.along[int(np.hypot(*(met.path - (body.x, body.y)).T).argmin())])
         for each in list(met.waiting):
-            if come < each.until or self._is_passed_by(time, each.traveller, present):
+            if come < each.until or self._is_passed_by(time, each.robot, present):
                 continue
             met.waiting.remove(each)
-            self._send(time, each.traveller)
-            met.involved.remove(each.traveller.name)
+            self._send(time, each.robot)
+            met.involved.remove(each.robot.name)
         late = time - self._watches[leader.name].since > 2.0 * leader.right_of_way.patience
-        if late or not any(each.refuge is not None for each in met.waiting):
+        if late or not any(each.waiting_place is not None for each in met.waiting):
             return self._end(time, met)
         return True
 
-    def _send(self, time: float, traveller: Traveller) -> None:
-        if traveller.grid is not None:
-            others = [e.body for e in self._present if e is not traveller and e.body is not None]
-            traveller.go_on(time, self._map(traveller.grid), others)
+    def _send(self, time: float, robot: NavigatingRobot) -> None:
+        if robot.grid is not None:
+            others = [e.body for e in self._present if e is not robot and e.body is not None]
+            robot.go_on(time, self._map(robot.grid), others)
 
     def _is_passed_by(
-        self, time: float, traveller: Traveller, present: Sequence[Traveller]
+        self, time: float, robot: NavigatingRobot, present: Sequence[NavigatingRobot]
     ) -> bool:
         """Return whether a robot should wait for a moving one beside it."""
-        body = traveller.body
+        body = robot.body
         for each in present:
             other, watch = each.body, self._watches.get(each.name)
-            if each is traveller or body is None or other is None or watch is None:
+            if each is robot or body is None or other is None or watch is None:
                 continue
             moves = each.goal is not None and time - watch.since < each.right_of_way.patience
             near = math.dist((body.x, body.y), (other.x, other.y)) < body.apart(other) + _BESIDE
@@ -355,16 +355,16 @@ class RightOfWay:
         if not met.under_way and met.leader.goal == met.goal:
             self._send(time, met.leader)
         for each in met.waiting:
-            self._send(time, each.traveller)
+            self._send(time, each.robot)
         for name in met.involved:
             if name in self._watches:
                 self._watches[name].since = time
         return False
 
 
-def _blocks(other: Traveller, traveller: Traveller, path: Floats) -> int | None:
+def _blocks(other: NavigatingRobot, robot: NavigatingRobot, path: Floats) -> int | None:
     """Return the index of the path point that another robot blocks; None if it is beside or behind."""
-    body, own = other.body, traveller.body
+    body, own = other.body, robot.body
     if body is None or own is None or not len(path):
         return None
     away = np.hypot(*(path - (body.x, body.y)).T)

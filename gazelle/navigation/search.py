@@ -14,14 +14,14 @@ Cell = tuple[int, int]
 _DIAGONAL = math.sqrt(2.0)
 
 
-def find_path(prices: Floats, start: Cell, goal: Cell) -> list[Cell] | None:
+def find_path(costs: Floats, start: Cell, goal: Cell) -> list[Cell] | None:
     """Return the cheapest path from cell to cell, to all eight neighbours; None if there is none.
 
     Method: Hart, Nilsson and Raphael, "A formal basis for the heuristic determination of
     minimum cost paths", 1968; the heuristic is the octile distance.
 
     Args:
-        prices: Of entering a cell, a length away: at least 1, and inf for what is closed;
+        costs: Of entering a cell, a length away: at least 1, and inf for what is closed;
             shape (columns, rows).
         start: Start of the path; it may be closed.
         goal: Its end.
@@ -30,14 +30,14 @@ def find_path(prices: Floats, start: Cell, goal: Cell) -> list[Cell] | None:
         Cells from ``start`` to ``goal``.
     """
     # A closed rim spares the test whether a neighbour is on the grid.
-    rim = np.pad(prices, 1, constant_values=math.inf)
+    rim = np.pad(costs, 1, constant_values=math.inf)
     stride = rim.shape[1]
-    price: list[float] = rim.ravel().tolist()
+    cost: list[float] = rim.ravel().tolist()
     first = (start[0] + 1) * stride + start[1] + 1
     last = (goal[0] + 1) * stride + goal[1] + 1
-    if math.isinf(price[last]):
+    if math.isinf(cost[last]):
         return None
-    came = _expand(price, stride, first, last)
+    came = _expand(cost, stride, first, last)
     if last != first and last not in came:
         return None
     path = [last]
@@ -46,7 +46,7 @@ def find_path(prices: Floats, start: Cell, goal: Cell) -> list[Cell] | None:
     return [(cell // stride - 1, cell % stride - 1) for cell in reversed(path)]
 
 
-def _expand(price: list[float], stride: int, first: int, last: int) -> dict[int, int]:
+def _expand(cost: list[float], stride: int, first: int, last: int) -> dict[int, int]:
     """Return the best predecessor of each cell, expanded until the last one is reached."""
     straight = (1, -1, stride, -stride)
     moves = [(each, 1.0) for each in straight]
@@ -66,7 +66,7 @@ def _expand(price: list[float], stride: int, first: int, last: int) -> dict[int,
         spent = best[cell]
         for move, length in moves:
             other = cell + move
-            total = spent + length * price[other]
+            total = spent + length * cost[other]
             if total < best.get(other, math.inf):
                 best[other], came[other] = total, cell
                 across, along = abs(other // stride - goal_column), abs(other % stride - goal_row)

@@ -18,8 +18,8 @@ from gazelle.navigation.localization import Localizer, PlanarScan
 from gazelle.navigation.move_base import GoalOutcome, NavigationStack, RobotState
 from gazelle.navigation.planners.planar import composed, inverse
 from gazelle.navigation.planners.plugins import STOP, Velocity
-from gazelle.navigation.refuges import RefugeMap, RobotDisc
 from gazelle.navigation.right_of_way import RightOfWaySettings
+from gazelle.navigation.waiting_places import RobotDisc, WaitingPlaceMap
 from gazelle.navigation.world_exploration import WorldExploration
 
 EXPLORED = "Exploration stopped."
@@ -67,7 +67,7 @@ class WorldPilot:
         self._pose: Pose2 | None = None
         self._local_pose: Pose2 = (0.0, 0.0, 0.0)
         self._put_off: Pose2 | None = None
-        self._refuge: Pose2 | None = None
+        self._waiting_place: Pose2 | None = None
         self.aside = False
         self.grid = grid
         if grid is not None:
@@ -129,17 +129,17 @@ class WorldPilot:
 
     def stand(self) -> None:
         """Wait, with the goal deferred."""
-        self._put_off, self._refuge, self.aside = self.goal, None, False
+        self._put_off, self._waiting_place, self.aside = self.goal, None, False
         self._stack.move_base.cancel()
 
     def step_aside(self, x: float, y: float, time: float) -> None:
         """Move to a place and wait there, in whatever heading."""
         heading = 0.0 if self._pose is None else self._pose[2]
-        self._refuge, self.aside = (x, y, heading), False
+        self._waiting_place, self.aside = (x, y, heading), False
         self._clear_global_obstacles()
-        self._stack.move_base.set_goal(self._refuge, time)
+        self._stack.move_base.set_goal(self._waiting_place, time)
 
-    def go_on(self, time: float, known: RefugeMap, others: Sequence[RobotDisc]) -> None:
+    def go_on(self, time: float, known: WaitingPlaceMap, others: Sequence[RobotDisc]) -> None:
         """Resume the deferred goal, and clear observations of neither the map nor robots.
 
         Where others stood their outlines stay else, as a beam that meets nothing takes none away. Walls
@@ -166,7 +166,7 @@ class WorldPilot:
         self._stack.move_base.set_goal(goal, time)
 
     def _end_encounter(self) -> None:
-        self._put_off, self._refuge, self.aside = None, None, False
+        self._put_off, self._waiting_place, self.aside = None, None, False
 
     def _clear_global_obstacles(self) -> None:
         """Clear all obstacles of the global costmap: others have moved since they were seen."""
@@ -207,24 +207,28 @@ class WorldPilot:
         stack.local.costmap.update(local_pose)
         if self._exploration is not None and self._explored(self._exploration, time, whole_pose):
             return STOP
-        if self._put_off is not None and (self._refuge is None or self._is_aside(whole_pose)):
+        if self._put_off is not None and (
+            self._waiting_place is None or self._is_aside(whole_pose)
+        ):
             return STOP
         step = stack.move_base.update(time, RobotState(whole_pose, local_pose, speed))
         if step.plan is not None:
             self.path = step.plan
         if step.outcome is not None and self._exploration is not None:
             self._exploration.ended(step.outcome)
-        elif step.outcome is not None and self._refuge is not None:
-            stack.move_base.set_goal(self._refuge, time)  # those behind it may have moved by now
+        elif step.outcome is not None and self._waiting_place is not None:
+            stack.move_base.set_goal(
+                self._waiting_place, time
+            )  # those behind it may have moved by now
         elif step.outcome is not None:
             self.outcome, self.text = step.outcome, step.text
         return step.velocity
 
     def _is_aside(self, pose: Pose2) -> bool:
-        """Return whether it has reached its refuge; its heading there does not matter."""
-        refuge = self._refuge
-        if refuge is not None and not self.aside:
-            self.aside = math.dist(refuge[:2], pose[:2]) < _ASIDE
+        """Return whether it has reached its waiting place; its heading there does not matter."""
+        waiting_place = self._waiting_place
+        if waiting_place is not None and not self.aside:
+            self.aside = math.dist(waiting_place[:2], pose[:2]) < _ASIDE
             if self.aside:
                 self._stack.move_base.cancel()
         return self.aside

@@ -45,7 +45,7 @@ class PlanarMove(ModelPlugin):
         timeout = parameters.get("cmdTimeout", -1.0)
         longest = timeout if timeout >= 0.0 else math.inf
         self.command = CommandTimeout(self._clock, self._command, longest)
-        self.system = SlidingSystem if math.isinf(longest) else PatientSystem
+        self.system = SlidingSystem if math.isinf(longest) else CommandTimeoutSystem
         frame = parameters.get("odometryFrame", "odom")
         base = parameters.get("robotBaseFrame", "base_footprint")
         rate = parameters.get("odometryRate", 20.0)
@@ -128,7 +128,7 @@ class SlidingSystem(OdometrySystem[PlanarMove]):
         plugin.publish(measured)
 
 
-class PatientSystem(SlidingSystem):
+class CommandTimeoutSystem(SlidingSystem):
     """Bases that stand without a command for too long."""
 
     def __init__(self, plugins: Sequence[PlanarMove]) -> None:

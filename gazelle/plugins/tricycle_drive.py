@@ -116,7 +116,7 @@ class TricycleDrive(ModelPlugin):
                 source=parameters.source,
             )
         self.from_encoders = source in ("encoder", "0")
-        self.system = CountingTricycles if self.from_encoders else TricycleSystem
+        self.system = EncoderTricycles if self.from_encoders else TricycleSystem
         self.reckoning = DeadReckoning(
             self._clock,
             parameters.get("encoderWheelSeparation", 0.5),
@@ -242,7 +242,7 @@ class TricycleSystem(OdometrySystem[TricycleDrive]):
             self._steering.drive(pace * self._steering_speed, ~placed)
 
 
-class CountingTricycles(TricycleSystem):
+class EncoderTricycles(TricycleSystem):
     """Tricycles with odometry from their wheels."""
 
     def _count(self) -> None:

@@ -11,7 +11,7 @@ from gazelle.argument_checks import checked
 from gazelle.description import Color, Empty, Material, Pose, Scene, Visual, World
 from gazelle.errors import EngineError
 from gazelle.geometry.triangles import TriangleMesh
-from gazelle.rendering.surface_looks import SurfaceLook
+from gazelle.rendering.surface_materials import SurfaceMaterial
 from gazelle.rendering.visible import GatheredShapes, VisiblePart, VisibleWorld, rows_of
 
 _BLACK = (0.0, 0.0, 0.0)
@@ -24,7 +24,7 @@ class PaintedPart:
 
     Attributes:
         link: Number of the link that they are on.
-        mesh: In the link's frame; parts that look alike may share it, which is held once.
+        mesh: In the link's frame; parts of equal shape may share it, which is held once.
         color: Red, green and blue, 0 to 1, as pictures show it.
     """
 
@@ -50,8 +50,8 @@ def painted_world(links: Sequence[str], parts: Iterable[PaintedPart]) -> Visible
         if key not in numbers:
             numbers[key] = gathered.add_mesh(part.mesh)
             held.append(part.mesh)  # as long as its id is in use
-        look = SurfaceLook(_BLACK, part.color)
-        gathered.add_part(numbers[key], look, part.link, label)
+        material = SurfaceMaterial(_BLACK, part.color)
+        gathered.add_part(numbers[key], material, part.link, label)
         paint = Material(diffuse=(*_BLACK, 1.0), emissive=(*part.color, 1.0))
         found.append(VisiblePart(links[part.link], Visual("paint", Empty(), material=paint)))
     pose = Pose()

@@ -32,7 +32,7 @@ from gazelle.rendering.tessellation import creased, polyline, terrain
 
 @dataclass(frozen=True, slots=True)
 class ShapePiece:
-    """Triangles that look alike.
+    """Triangles of one material.
 
     Attributes:
         mesh: The triangles.
@@ -56,16 +56,16 @@ def pieces_of(shape: Geometry) -> tuple[ShapePiece, ...]:
     if not isinstance(shape, Mesh) or shape.path is None:
         return (ShapePiece(triangles_of(shape)),)
     from gazelle.formats.mesh import load_mesh_parts
-    from gazelle.formats.mesh_looks import texture_file
+    from gazelle.formats.mesh_materials import texture_file
 
     pieces = []
     for part in load_mesh_parts(shape):
-        look = part.look
-        texture: Path | Bytes | None = look.pixels
-        if look.texture:
-            texture = texture_file(shape.path, look.texture)
-        mesh = creased(part.vertices, np.ascontiguousarray(part.faces), look.uv)
-        pieces.append(ShapePiece(mesh, look.color, texture, look.alpha))
+        material = part.material
+        texture: Path | Bytes | None = material.pixels
+        if material.texture:
+            texture = texture_file(shape.path, material.texture)
+        mesh = creased(part.vertices, np.ascontiguousarray(part.faces), material.uv)
+        pieces.append(ShapePiece(mesh, material.color, texture, material.alpha))
     return tuple(pieces)
 
 

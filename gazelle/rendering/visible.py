@@ -15,7 +15,7 @@ from gazelle.geometry.triangles import TriangleMesh, joined
 from gazelle.rendering import columns as c
 from gazelle.rendering.rasterizer import DrawnShapes
 from gazelle.rendering.shape_meshes import ShapePiece, pieces_of
-from gazelle.rendering.surface_looks import SurfaceLook, surface_look
+from gazelle.rendering.surface_materials import SurfaceMaterial, surface_material
 from gazelle.rendering.textures import TextureTable
 
 
@@ -26,7 +26,7 @@ class VisiblePart:
 
     Attributes:
         link: Scoped name of the link: ``model::link``.
-        visual: Its look and shape.
+        visual: Its material and shape.
     """
 
     link: str
@@ -106,29 +106,29 @@ class GatheredShapes:
         self._textures = TextureTable()
         self._parts: list[tuple[int, int, int, int]] = []
         self._places: list[Floats] = []
-        self._looks: list[SurfaceLook] = []
+        self._materials: list[SurfaceMaterial] = []
 
     def add(self, visual: Visual, link: int, label: int) -> None:
-        """Add a visual: as many parts as its shape has looks."""
+        """Add a visual: as many parts as its shape has materials."""
         for mesh, piece in self._pieces(visual.geometry):
-            look = surface_look(visual, piece)
-            number = None if look.texture is None else self._textures.number(look.texture)
+            material = surface_material(visual, piece)
+            number = None if material.texture is None else self._textures.number(material.texture)
             if number is not None and piece.mesh.uv is None:  # it is nowhere in the picture
-                look, number = replace(look, color=self._textures.mean(number)), None
+                material, number = replace(material, color=self._textures.mean(number)), None
             self._parts.append((mesh, link, label, -1 if number is None else number))
             self._places.append(_row(visual.pose))
-            self._looks.append(look)
+            self._materials.append(material)
 
     def add_mesh(self, mesh: TriangleMesh) -> int:
         """Add triangles that parts may have; returns their number."""
         self._meshes.append(mesh)
         return len(self._meshes) - 1
 
-    def add_part(self, mesh: int, look: SurfaceLook, link: int, label: int) -> None:
+    def add_part(self, mesh: int, material: SurfaceMaterial, link: int, label: int) -> None:
         """Add a mesh in the frame of a link; it has no texture."""
         self._parts.append((mesh, link, label, -1))
         self._places.append(_row(Pose()))
-        self._looks.append(look)
+        self._materials.append(material)
 
     def drawn(self) -> DrawnShapes:
         """Return all as arrays."""
@@ -143,9 +143,9 @@ class GatheredShapes:
             np.array([_ball(mesh) for mesh in meshes]).reshape(-1, 4),
             np.array(self._parts, np.int64).reshape(-1, c.PART),
             np.array(self._places).reshape(-1, 12),
-            np.array([look.color for look in self._looks], np.float32).reshape(-1, 3),
-            np.array([look.glow for look in self._looks], np.float32).reshape(-1, 3),
-            np.array([look.alpha for look in self._looks], np.float32),
+            np.array([material.color for material in self._materials], np.float32).reshape(-1, 3),
+            np.array([material.glow for material in self._materials], np.float32).reshape(-1, 3),
+            np.array([material.alpha for material in self._materials], np.float32),
             np.zeros((count, 2)) if together.uv is None else np.ascontiguousarray(together.uv),
             self._textures.rows(),
             self._textures.texels(),

@@ -13,7 +13,7 @@ from gazelle.array_types import Floats, Indices, Worlds
 from gazelle.engines import Contacts, ContactTable, Engine
 from gazelle.errors import SimulationError
 from gazelle.sensors.limits import check_worlds
-from gazelle.sensors.model import FromPython, NoisySensor, SystemOf
+from gazelle.sensors.model import NoisySensor, PythonSensors, SystemMaker
 
 # Values of one contact: two names, position, normal, depth, force, torque.
 _WIDTH = 15
@@ -70,9 +70,9 @@ class ContactModel(NoisySensor):
         check_worlds(worlds, self.engine.nworld)
         return self._alone.measure_all(interval, worlds)[:, 0]
 
-    def system(self) -> SystemOf:
+    def system(self) -> SystemMaker:
         """Return what measures it with others that have room for as many contacts."""
-        return SystemOf(ContactGroup, self._most)
+        return SystemMaker(ContactGroup, self._most)
 
     @property
     def engine(self) -> Engine:
@@ -118,7 +118,7 @@ class ContactModel(NoisySensor):
         return float(self._names.index(name))
 
 
-class ContactGroup(FromPython):
+class ContactGroup(PythonSensors):
     """Contact sensors of many robots, measured at once: forces are computed once for all.
 
     Args:

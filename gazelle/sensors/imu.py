@@ -13,7 +13,7 @@ from gazelle.description import Imu, Pose
 from gazelle.engines import Engine, Motion, Placement
 from gazelle.errors import SimulationError
 from gazelle.rotations import conjugate, cross, multiply, rotate
-from gazelle.sensors.model import FromPython, NoisySensor, SystemOf
+from gazelle.sensors.model import NoisySensor, PythonSensors, SystemMaker
 from gazelle.sensors.noise import JoinedNoise
 
 
@@ -86,9 +86,9 @@ class ImuModel(NoisySensor):
         )
         return np.concatenate((orientation, self.noisy(specific_force, interval, worlds)), axis=1)
 
-    def system(self) -> SystemOf:
+    def system(self) -> SystemMaker:
         """Return the system that measures it with others of equal noise."""
-        return SystemOf(ImuGroup, tuple(noise.description for noise in self.noises))
+        return SystemMaker(ImuGroup, tuple(noise.description for noise in self.noises))
 
     @property
     def engine(self) -> Engine:
@@ -110,7 +110,7 @@ class ImuModel(NoisySensor):
         return ImuReading(stamp, values[..., :4], values[..., 4:7], values[..., 7:])
 
 
-class ImuGroup(FromPython):
+class ImuGroup(PythonSensors):
     """IMUs of many robots, measured at once: the coming step is made once for all.
 
     Args:

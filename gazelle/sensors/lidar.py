@@ -16,7 +16,7 @@ from gazelle.errors import SimulationError
 from gazelle.sensors.lidar_group import LidarGroup
 from gazelle.sensors.lidar_ranges import LidarNoise, RangeLaw, measure
 from gazelle.sensors.limits import check_worlds
-from gazelle.sensors.model import SystemOf
+from gazelle.sensors.model import SystemMaker
 from gazelle.sensors.noise import NoiseModel
 
 _NEAR = 1e-3  # rays are no shorter [m]
@@ -121,13 +121,15 @@ class LidarModel:
         """True where a system of the engine measures it; else Python does."""
         return self._own().kernel is not None
 
-    def system(self) -> SystemOf | None:
+    def system(self) -> SystemMaker | None:
         """Return what measures it with others of the same rays and law; None where none can."""
         if self._noise.drifts:
             return None
         rays, law = self.engine.range_kind(self.rays), self.law
         reported = law.low, law.high, law.quantum, law.mean, law.precision
-        return None if rays is None else SystemOf(_group_of, (rays, reported, self._noise.biased))
+        return (
+            None if rays is None else SystemMaker(_group_of, (rays, reported, self._noise.biased))
+        )
 
     def _own(self) -> LidarGroup:
         """Return the group of this lidar alone."""

@@ -81,7 +81,7 @@ class SensorSystem(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class SystemOf:
+class SystemMaker:
     """Maker of a system, equal for the sensors that share one.
 
     Attributes:
@@ -101,11 +101,11 @@ class GroupedModel(SensorModel, Protocol):
     def by_system(self) -> bool:
         """True where what measures many has a kernel, which the engine updates in its steps."""
 
-    def system(self) -> SystemOf | None:
+    def system(self) -> SystemMaker | None:
         """Return what makes its system now; None for one that is measured alone."""
 
 
-class FromPython:
+class PythonSensors:
     """Sensors that are measured by Python only."""
 
     kernel: System | None = None

@@ -18,7 +18,7 @@ from gazelle.description import Light, Plane, Pose, Visual, World
 from gazelle.engines.tracer import RayHits, Tracer
 from gazelle.errors import SimulationError
 from gazelle.rendering.lamps import SKY_HORIZON, SKY_TOP, SUN
-from gazelle.rendering.surface_looks import GREY
+from gazelle.rendering.surface_materials import GREY
 from gazelle.sensors.limits import MAX_PIXELS
 
 _LINE = 0.012  # half width of the lines of the ground grid [m]

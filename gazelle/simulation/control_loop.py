@@ -22,7 +22,7 @@ from gazelle.engines.limits import NANOSECONDS
 from gazelle.errors import ControlWarning
 from gazelle.simulation.joint_hardware import JointHardware
 from gazelle.simulation.plugin import ModelPlugin
-from gazelle.simulation.plugin_system import InStep, PluginSystem
+from gazelle.simulation.plugin_system import InStepWork, PluginSystem
 from gazelle.simulation.robot import Robot
 from gazelle.simulation.scheduled_plugin import make_scheduled
 from gazelle.simulation.simulated_hardware import (
@@ -180,7 +180,7 @@ class ControlLoop(ModelPlugin):
         self._written_ns = now
         self.hardware.write(time, since / NANOSECONDS)
 
-    def in_step(self) -> InStep | None:
+    def in_step(self) -> InStepWork | None:
         """Return all of ``on_update`` in native code, and until when that is good."""
         self._invalidate()
         hardware = self.hardware
@@ -192,7 +192,7 @@ class ControlLoop(ModelPlugin):
         if not (laws or self.active):
             # A class of a user's own may have more to do than it reports.
             self._resting = type(hardware) is JointHardware
-            return InStep((), math.inf, lasting=True) if self._resting else None
+            return InStepWork((), math.inf, lasting=True) if self._resting else None
         cycle = hardware.in_step
         if cycle is None:
             return None
@@ -204,7 +204,7 @@ class ControlLoop(ModelPlugin):
         cycle.begin(_or_never(self._updated_ns), _or_never(self._written_ns))
         self._handed_over = True
         # Without controllers nothing reports when there is nothing left to do.
-        return InStep((cycle,), self.manager.wake_ns(), bool(laws) and self.manager.patient)
+        return InStepWork((cycle,), self.manager.wake_ns(), bool(laws) and self.manager.patient)
 
     @property
     def _control_ns(self) -> int:
@@ -280,7 +280,7 @@ class ControlSystem(PluginSystem[ControlLoop]):
         """Read, control, write."""
         self.plugins[0].on_update(time)
 
-    def in_step(self) -> InStep | None:
+    def in_step(self) -> InStepWork | None:
         """Return the control cycle, and until when it is good."""
         return self.plugins[0].in_step()
 

@@ -9,7 +9,7 @@ from gazelle.array_types import Worlds
 from gazelle.description import Model
 from gazelle.errors import SimulationError, did_you_mean
 from gazelle.simulation.loading import adopt, is_plain
-from gazelle.simulation.mappings import MadeOnDemand
+from gazelle.simulation.mappings import LazyItems
 from gazelle.simulation.robot import Robot, RobotHost, SensorUnit
 from gazelle.simulation.scheduled_plugin import ScheduledPlugin
 from gazelle.simulation.world_kinds import WorldKind, find_world_kind
@@ -31,7 +31,7 @@ class EntityManager:
 
     def __init__(self, simulation: RobotHost) -> None:
         self._simulation = simulation
-        self.robots: MadeOnDemand[Robot] = MadeOnDemand(self._make)
+        self.robots: LazyItems[Robot] = LazyItems(self._make)
         self._awaited: dict[str, Model] = {}
         self._kinds: dict[str, WorldKind | None] = {"": None}
         self.sensors: list[SensorUnit] = []

@@ -49,7 +49,7 @@ class Named(Mapping[str, T]):
         return len(self._items)
 
 
-class MadeOnDemand(MutableMapping[str, T], Generic[T]):
+class LazyItems(MutableMapping[str, T], Generic[T]):
     """Items by name; some are made at first access.
 
     Args:

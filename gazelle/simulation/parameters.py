@@ -71,7 +71,7 @@ class Measured(Protocol):
         """Model that measures it."""
 
 
-class Equipped(Protocol):
+class ModelWithSensors(Protocol):
     """A model with sensors; see ``Robot``."""
 
     description: Model
@@ -85,7 +85,7 @@ class PopulatedState(RunningState, Protocol):
     """A simulation with its models."""
 
     @property
-    def robots(self) -> Mapping[str, Equipped]:
+    def robots(self) -> Mapping[str, ModelWithSensors]:
         """Robots by name."""
 
 

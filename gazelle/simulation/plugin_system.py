@@ -23,7 +23,7 @@ class Published(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class InStep:
+class InStepWork:
     """Work of a system that engines do within their steps, for some time.
 
     Attributes:
@@ -75,7 +75,7 @@ class PluginSystem(Generic[P]):
             time: Simulated time [s].
         """
 
-    def in_step(self) -> InStep | None:
+    def in_step(self) -> InStepWork | None:
         """Return what engines do in place of ``update`` from now on; None for nothing.
 
         Only for a system whose ``kernel`` is not always good; called before steps are made.

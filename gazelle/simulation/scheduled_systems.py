@@ -9,7 +9,7 @@ from gazelle.native.system import System
 from gazelle.simulation.clock import Clock
 from gazelle.simulation.grouping import of_one_kind, with_replacements
 from gazelle.simulation.plugin_errors import warn_of_fault
-from gazelle.simulation.plugin_system import InStep, PluginSystem
+from gazelle.simulation.plugin_system import InStepWork, PluginSystem
 from gazelle.simulation.scheduled_plugin import ScheduledPlugin, title
 
 
@@ -48,7 +48,7 @@ class ScheduledSystem:
         """True where it is worth calling ``in_step``."""
         return type(self._system).in_step is not PluginSystem.in_step
 
-    def in_step(self) -> InStep | None:
+    def in_step(self) -> InStepWork | None:
         """Return what engines do in its place, and until when."""
         if self._subscribed or self._parted or self._gone:
             return None

@@ -10,7 +10,7 @@ import numpy as np
 
 from gazelle.native.system import System
 from gazelle.simulation.base_plugin import BasePlugin
-from gazelle.simulation.plugin_system import InStep
+from gazelle.simulation.plugin_system import InStepWork
 from gazelle.simulation.scheduled_systems import ScheduledSystem
 
 _OUTDATED = -1.0
@@ -19,7 +19,7 @@ _OUTDATED = -1.0
 class SystemsInStep:
     """Systems that may act within steps, in the order in which they act.
 
-    An answer that lasts (``InStep``) is kept until its time has come, until it is invalidated, or until
+    An answer that lasts (``InStepWork``) is kept until its time has come, until it is invalidated, or until
     the cache key changes. So between two steps only those are queried that may have
     changed, however many there are.
 
@@ -40,7 +40,7 @@ class SystemsInStep:
         self._places = {
             id(plugin): place for place, entry in enumerate(entries) for plugin in entry.plugins
         }
-        self._found: list[InStep | None] = [None] * len(entries)
+        self._found: list[InStepWork | None] = [None] * len(entries)
         self._until = np.full(len(entries), _OUTDATED)  # when each is queried again [ns]
         self._query_ns = _OUTDATED
         self._brief: list[ScheduledSystem] = []

@@ -12,7 +12,7 @@ from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Worlds
 from gazelle.errors import SimulationError
 from gazelle.simulation.inputs import chosen
-from gazelle.stage.robots import Rider, StageRobot
+from gazelle.stage.robots import MountedActuator, StageRobot
 from gazelle.stage.stage_bodies import StageBodies
 
 
@@ -33,7 +33,7 @@ class Actuator:
         position: [m or rad], shape (nworld,); to be read.
     """
 
-    def __init__(self, simulation: StageBodies, robot: StageRobot, rider: Rider) -> None:
+    def __init__(self, simulation: StageBodies, robot: StageRobot, rider: MountedActuator) -> None:
         self._simulation, self._robot, self._rider = simulation, robot, rider
         self._device = rider.device
         count = simulation.nworld

@@ -26,7 +26,7 @@ Device = TypeVar("Device", StageFiducial, StageBlobfinder, StageBumper)
 
 
 @dataclass(frozen=True, slots=True)
-class Mounted(Generic[Device]):
+class MountedFinder(Generic[Device]):
     """A finder: where it is in the world, and what the file says of it."""
 
     pose: StagePose
@@ -125,7 +125,9 @@ class Surroundings:
             self._shapes[key] = outlines_of(list(replace(model, pose=StagePose()).walk()))
         return self._shapes[key]
 
-    def mounted(self, robot: int, kind: type[Device], which: int, world: int) -> Mounted[Device]:
+    def mounted(
+        self, robot: int, kind: type[Device], which: int, world: int
+    ) -> MountedFinder[Device]:
         """Return a finder of a robot.
 
         Raises:
@@ -133,7 +135,7 @@ class Surroundings:
         """
         own = self._simulation.robots[robot]
         found = [
-            Mounted(placed.pose, placed.model, placed.model.device)
+            MountedFinder(placed.pose, placed.model, placed.model.device)
             for body, model in own.bodies
             for placed in replace(model, pose=self.place(body, world)).walk()
             if isinstance(placed.model.device, kind)

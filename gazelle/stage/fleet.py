@@ -23,11 +23,11 @@ from gazelle.stage.layout import stage_layout
 from gazelle.stage.rangers import Rangers
 from gazelle.stage.robots import StageRobot, warn_of_mounted_drives
 from gazelle.stage.scans import StageRangeNoise
-from gazelle.stage.senses import Senses
+from gazelle.stage.stage_devices import StageDevices
 
 
 @checked(SimulationError)
-class StageFleet(Senses):
+class StageFleet(StageDevices):
     """Commands, poses, odometry and scans of all robots of Stage files: ``Simulation.extension(StageFleet)``.
 
     All arrays have the axes (nworld, nrobot, ...); robots are in the order of the world's models.

@@ -20,7 +20,7 @@ from gazelle.stage.description import (
     StageSensor,
     stage_model,
 )
-from gazelle.stage.robots import Ranger, Rider, StageRobot, without_actuators
+from gazelle.stage.robots import MountedActuator, Ranger, StageRobot, without_actuators
 from gazelle.stage.shapes import parts_of
 from gazelle.stage.walls import table_of
 
@@ -201,7 +201,7 @@ class _Maker:
         placed: PlacedStageModel,
         device: StageActuator,
         base: StagePose,
-    ) -> tuple[Rider, list[Ranger]]:
+    ) -> tuple[MountedActuator, list[Ranger]]:
         """Add what an actuator of a robot moves, a body of the robot's family."""
         whole = f"{name}.{placed.name.partition('.')[2]}"
         model = replace(
@@ -217,7 +217,7 @@ class _Maker:
             self.ranger(body, whole, there, sensors, views)
             for there, sensors, views in shape.rangers
         ]
-        return Rider(body, model, device, base), rangers
+        return MountedActuator(body, model, device, base), rangers
 
     def ranger(
         self,

@@ -43,7 +43,7 @@ class Ranger:
 
 
 @dataclass(frozen=True, slots=True)
-class Rider:
+class MountedActuator:
     """Actuator on a robot with all that is mounted on it: a body of its own.
 
     Attributes:
@@ -76,7 +76,7 @@ class StageRobot:
     name: str
     model: StageModel
     rangers: tuple[Ranger, ...] = ()
-    riders: tuple[Rider, ...] = ()
+    riders: tuple[MountedActuator, ...] = ()
 
     @property
     def bodies(self) -> Iterator[tuple[int, StageModel]]:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from gazelle.array_types import Worlds
 from gazelle.native.system import System
 from gazelle.simulation.plugin import WorldPlugin
-from gazelle.simulation.plugin_system import InStep, PluginSystem
+from gazelle.simulation.plugin_system import InStepWork, PluginSystem
 from gazelle.stage.fleet import StageFleet
 from gazelle.states import Restorable, restore_all, states_of
 
@@ -130,7 +130,7 @@ class StageSystem(PluginSystem[StageRunner]):
         """Update the controllers."""
         self.plugins[0].control()
 
-    def in_step(self) -> InStep | None:
+    def in_step(self) -> InStepWork | None:
         """Return the controllers' kernels, if those are all."""
         kernels = self.plugins[0].bind()
-        return None if kernels is None else InStep(kernels, math.inf)
+        return None if kernels is None else InStepWork(kernels, math.inf)

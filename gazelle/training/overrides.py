@@ -51,8 +51,8 @@ def with_values(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
         elif library or name in inner:
             settings[name] = value
         else:
-            if heeding := algorithms_heeding(name):
-                raise unsupported_error(recipe.algo, name, heeding)
+            if supporting := supporting_algorithms(name):
+                raise unsupported_error(recipe.algo, name, supporting)
             hint = did_you_mean(name, fields | inner | rewards)
             raise TaskError(f"a recipe for {recipe.algo} has no '{name}'", hint=hint)
     if settings:
@@ -65,7 +65,7 @@ def with_values(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
         raise TaskError(f"a value of the recipe cannot be: {error}") from error
 
 
-def algorithms_heeding(name: str) -> tuple[str, ...]:
+def supporting_algorithms(name: str) -> tuple[str, ...]:
     """Return the algorithms that support one of these.
 
     They have `PPOSettings` or `OffPolicySettings`.

@@ -297,7 +297,7 @@ def test_a_global_planner_publishes_its_plan_and_potential(room):
     answer = tuned.call(request, 30.0).config
     assert {each.name: each.value for each in answer.ints}["orientation_mode"] == 6
     planner = move_base._law.planner
-    assert planner.settings.neutral_cost == planner.prices()[0] == 70
+    assert planner.settings.neutral_cost == planner.traversal_costs()[0] == 70
     assert planner.on_potential is None
 
 

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 import gazelle
 from gazelle.description.occupancy import OccupancyMap
 from gazelle.errors import Error
-from gazelle.navigation.refuges import RefugeMap, RobotDisc
 from gazelle.navigation.right_of_way import RightOfWay, RightOfWaySettings
+from gazelle.navigation.waiting_places import RobotDisc, WaitingPlaceMap
 from gazelle.stage import stage_of
 
 ROOM = """
@@ -212,11 +212,11 @@ def test_who_loses_the_goal_lets_the_other_go_on():
 @given(st.floats(0.4, 9.6), st.floats(0.4, 9.6), st.floats(0.1, 0.25))
 def test_a_refuge_is_beside_the_way_and_never_beyond_the_leader(first, second, radius):
     assume(abs(first - second) > 3.0 * radius)
-    ground = RefugeMap(corridor_map(bay=True))
+    ground = WaitingPlaceMap(corridor_map(bay=True))
     leader = RobotDisc(first, 0.8, 0.6 * radius, radius)
     robot = RobotDisc(second, 0.8, 0.6 * radius, radius)
     path = ground.path(leader, (9.6 if second > first else 0.4, 0.8))
-    found = ground.refuge(robot, leader, path, [], [])
+    found = ground.waiting_place(robot, leader, path, [], [])
     reachable = (6.5 - first) * (second - first) > 0.0
     if found is not None:
         assert np.hypot(*(path - (found.x, found.y)).T).min() >= robot.apart(leader) - 0.05

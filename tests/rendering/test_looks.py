@@ -23,7 +23,7 @@ from gazelle.description import (
 from gazelle.errors import EngineWarning
 from gazelle.formats import collada
 from gazelle.formats.mesh import load_mesh, load_mesh_parts
-from gazelle.formats.mesh_looks import texture_file
+from gazelle.formats.mesh_materials import texture_file
 from gazelle.rendering import PinholeLens, Renderer
 from gazelle.sensors import look_at
 

@@ -11,8 +11,8 @@ from gazelle.engines.planar import columns as c
 from gazelle.stage import StageSimulation, cameras_of
 from gazelle.stage.description import StagePose
 from gazelle.stage.faces import in_tiles
-from gazelle.stage.senses import models_of
 from gazelle.stage.shapes import blocks_of
+from gazelle.stage.stage_devices import models_of
 
 ROWS, COLUMNS = 36, 48
 SKY = (179, 179, 204)

@@ -9,7 +9,7 @@ from gazelle.errors import TaskError
 from gazelle.training import Actor, evaluate
 from gazelle.training.copies import TaskCopies
 from gazelle.training.tasks import make_task
-from gazelle.training.workers.shards import Blueprint, Shard
+from gazelle.training.workers.shards import Shard, ShardSpec
 
 
 def actor(gain=0.0, bias=(0.0, 0.0, 0.0)):
@@ -249,7 +249,7 @@ def test_the_fleet_is_evaluated_in_any_number(episodes):
 
 def drawn_by_trainings(seed, **options):
     """Return the starts of a training's copies of the task: alone, and in two shards."""
-    blueprint = Blueprint(task="test/Dice-v0", sizes=(8, 8), options=options)
+    blueprint = ShardSpec(task="test/Dice-v0", sizes=(8, 8), options=options)
     plain = TaskCopies(make_task("test/Dice-v0", 16, **options)).reset(seed)
     shards = [Shard(blueprint, number).reset(seed) for number in range(2)]
     return set(np.concatenate([plain, *shards]).ravel().tolist())

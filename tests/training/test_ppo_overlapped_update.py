@@ -16,7 +16,7 @@ from stable_baselines3.common.callbacks import BaseCallback
 from gazelle.training.actor import Actor
 from gazelle.training.learners import build_learner, ppo
 from gazelle.training.learners.ppo_dense_update import DenseUpdate
-from gazelle.training.learners.ppo_overlapped_update import UpdateAhead
+from gazelle.training.learners.ppo_overlapped_update import OverlappedUpdate
 from gazelle.training.recipes import PPOSettings, Recipe
 from gazelle.training.threads import limit_threads
 from gazelle.training.vecenv import VectorEnvAdapter
@@ -99,7 +99,7 @@ def test_timing_changes_nothing(monkeypatch, continuous):
 def test_it_runs_while_the_rollout_is_played(monkeypatch):
     """Each of the two waits for the other: one after the other, the first would wait in vain."""
     playing, learning, begun = (threading.Event() for _ in range(3))
-    update, outputs, start = DenseUpdate.learn_from, Actor.outputs, UpdateAhead.start
+    update, outputs, start = DenseUpdate.learn_from, Actor.outputs, OverlappedUpdate.start
 
     def learn_from(*arguments):
         learning.set()
@@ -116,7 +116,7 @@ def test_it_runs_while_the_rollout_is_played(monkeypatch):
         begun.set()
         start(self)
 
-    monkeypatch.setattr(UpdateAhead, "start", begin)
+    monkeypatch.setattr(OverlappedUpdate, "start", begin)
     monkeypatch.setattr(DenseUpdate, "learn_from", learn_from)
     monkeypatch.setattr(Actor, "outputs", act)
     learnt(rollouts=2)

@@ -16,7 +16,7 @@ from test_session import SMALL
 from gazelle.errors import SimulationWarning, TaskError
 from gazelle.training import Recipe, evaluate, resume, train
 from gazelle.training.progress import NoProgress
-from gazelle.training.workers import Blueprint, ShardHost, Team, WorkerLostError, divided
+from gazelle.training.workers import ShardHost, ShardSpec, WorkerGroup, WorkerLostError, divided
 from gazelle.training.workers.processes import ProcessLink
 
 TASKS = str(Path(__file__).with_name("registering_corridors.py"))
@@ -163,16 +163,16 @@ class Mortal:
 
 
 def test_a_worker_that_always_dies_ends_the_run():
-    blueprint = Blueprint(task="test/Corridor-v0", sizes=(2, 2))
-    team = Team(lambda numbers: Mortal(blueprint, numbers, iter([True] * 50)), 2, 1)
+    blueprint = ShardSpec(task="test/Corridor-v0", sizes=(2, 2))
+    team = WorkerGroup(lambda numbers: Mortal(blueprint, numbers, iter([True] * 50)), 2, 1)
     with pytest.raises(TaskError, match="ended 4 times in the same work"):
         team.call("reset", 1)
 
 
 def test_a_task_that_cannot_save_its_state_starts_anew():
-    blueprint = Blueprint(task="test/Forgetful-v0", sizes=(2, 2))
+    blueprint = ShardSpec(task="test/Forgetful-v0", sizes=(2, 2))
     deaths = iter([False, True, *[False] * 50])
-    team = Team(lambda numbers: Mortal(blueprint, numbers, deaths), 2, 1)
+    team = WorkerGroup(lambda numbers: Mortal(blueprint, numbers, deaths), 2, 1)
     team.call("reset", 1)
     assert team.states is None
     with pytest.warns(SimulationWarning, match="episodes start again"):

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Protocol, TypeVar
 from gazelle_ros.msgs import moveit_msgs
 
 
-class Coded(Protocol):
+class WithErrorCode(Protocol):
     """Message with an error code."""
 
     error_code: moveit_msgs.msg.MoveItErrorCodes
@@ -21,4 +21,4 @@ if TYPE_CHECKING:
         | moveit_msgs.msg.PlaceResult
     )
 
-CodedT = TypeVar("CodedT", bound=Coded)
+WithErrorCodeT = TypeVar("WithErrorCodeT", bound=WithErrorCode)

@@ -11,7 +11,7 @@ from gazelle.array_types import Floats
 from gazelle.bridges.moveit.capabilities import Capabilities
 from gazelle.bridges.moveit.constraint_messages import constraints_of_message
 from gazelle.bridges.moveit.description import margins_of_parameters, robot_of_parameters
-from gazelle.bridges.moveit.error_codes import CodedT
+from gazelle.bridges.moveit.error_codes import WithErrorCodeT
 from gazelle.bridges.moveit.frames import PlanningFrames
 from gazelle.bridges.moveit.held_objects import scene_in_state
 from gazelle.bridges.moveit.robot_states import JointStateMonitor, state_of_message
@@ -120,17 +120,21 @@ class PlanningContext:
             raise NoPlanError(error.message, outcome, error.hint) from None
         return made
 
-    def answer(self, response: CodedT, act: Callable[[CodedT], None], what: str) -> CodedT:
+    def answer(
+        self, response: WithErrorCodeT, act: Callable[[WithErrorCodeT], None], what: str
+    ) -> WithErrorCodeT:
         """Fill a response that has an error code, holding ``lock``; see ``coded``."""
 
-        def hold(response: CodedT) -> None:
+        def hold(response: WithErrorCodeT) -> None:
             with self.lock:
                 act(response)
 
         return self.coded(response, hold, what)
 
     @staticmethod
-    def coded(response: CodedT, act: Callable[[CodedT], None], what: str) -> CodedT:
+    def coded(
+        response: WithErrorCodeT, act: Callable[[WithErrorCodeT], None], what: str
+    ) -> WithErrorCodeT:
         """Fill a response that has an error code; what goes wrong becomes that code.
 
         Args:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from gazelle.bridges.conversions import Triple
+from gazelle.bridges.conversions import XyzMessage
 from gazelle.description import Pose
 from gazelle.drop_in.moveit_client.session import packed
 from gazelle.drop_in.moveit_commander.exception import MoveItCommanderException
@@ -77,9 +77,9 @@ def list_to_transform(trf_list: Sequence[float]) -> geometry_msgs.msg.Transform:
     return made
 
 
-def _numbers(place: Triple, turn: geometry_msgs.msg.Quaternion) -> list[float]:
+def _numbers(place: XyzMessage, turn: geometry_msgs.msg.Quaternion) -> list[float]:
     return [place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w]
 
 
-def _fill(place: Triple, turn: geometry_msgs.msg.Quaternion, values: Sequence[float]) -> None:
+def _fill(place: XyzMessage, turn: geometry_msgs.msg.Quaternion, values: Sequence[float]) -> None:
     place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w = values

@@ -18,7 +18,7 @@ from gazelle_ros.msgs import geometry_msgs, moveit_msgs, trajectory_msgs
 from gazelle_ros.time import Time
 
 if TYPE_CHECKING:
-    from gazelle.bridges.moveit.error_codes import Coded
+    from gazelle.bridges.moveit.error_codes import WithErrorCode
     from gazelle.drop_in.moveit_commander.group_targets import AnyPose
 
     AnyTrajectory = (
@@ -275,7 +275,7 @@ class MoveGroupCommander(GroupSettings):
         goal: moveit_msgs.msg.PickupGoal | moveit_msgs.msg.PlaceGoal,
         *,
         plan_only: bool,
-    ) -> Coded:
+    ) -> WithErrorCode:
         """Send a goal of ``pickup`` or ``place`` with what is set."""
         settings = self._settings
         goal.group_name, goal.planner_id = self._name, settings.planner
@@ -285,7 +285,7 @@ class MoveGroupCommander(GroupSettings):
         if settings.path is not None:
             goal.path_constraints = settings.path
         goal.planning_options = settings.options(plan_only=plan_only)
-        result: Coded = self._actions.run(action, goal)
+        result: WithErrorCode = self._actions.run(action, goal)
         return result
 
     def _end_effector(self) -> str:
@@ -334,7 +334,7 @@ class MoveGroupCommander(GroupSettings):
         return True
 
 
-def _good(result: Coded) -> bool:
+def _good(result: WithErrorCode) -> bool:
     return bool(result.error_code.val == PlanOutcome.SUCCESS)
 
 

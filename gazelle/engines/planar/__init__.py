@@ -15,7 +15,7 @@ from gazelle.engines.planar.fans import Fan, Mount, RangeNoise, Scanner
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.fleet_bodies import Body, Drive
 from gazelle.engines.planar.footprints import footprint_of, outline_of
-from gazelle.engines.planar.kind_layouts import KindLayout, LayOut
+from gazelle.engines.planar.kind_layouts import KindLayout, KindLayoutFactory
 from gazelle.engines.planar.shapes import PrimitiveTable, Raster, primitives_of, segments_of
 from gazelle.geometry.planar_part import PlanarPart
 
@@ -27,7 +27,7 @@ __all__ = [
     "Fan",
     "Fleet",
     "KindLayout",
-    "LayOut",
+    "KindLayoutFactory",
     "Mount",
     "PlanarEngine",
     "PlanarPart",

@@ -25,7 +25,7 @@ from gazelle.engines.planar.ray_casting import PlanarRays
 from gazelle.engines.planar.tables.joints import PlanarJointRow, PlanarJointRows
 from gazelle.engines.planar.tables.links import PlanarLinkRow, PlanarLinkRows
 from gazelle.engines.planar.tables.models import PlanarModelRow, PlanarModelRows
-from gazelle.engines.planar.worlds import RunningPlane, rows_of
+from gazelle.engines.planar.worlds import PlanarState, rows_of
 from gazelle.engines.table import Table
 from gazelle.errors import EngineError, did_you_mean
 from gazelle.native.system import System
@@ -74,7 +74,7 @@ class PlanarEngine:
         if step != world.profile.max_step_size:
             world = with_profile(world, replace(world.profile, max_step_size=step))
         check_world(world)
-        self._run = RunningPlane(FleetInput(world, step, {}), nworld, threads)
+        self._run = PlanarState(FleetInput(world, step, {}), nworld, threads)
         self._take_over()
 
     def _take_over(self) -> None:

@@ -43,7 +43,7 @@ class KindLayout:
     heights: frozenset[float] = frozenset()
 
 
-class LayOut(Protocol):
+class KindLayoutFactory(Protocol):
     """Lays out all models of a kind."""
 
     def __call__(
@@ -90,7 +90,7 @@ def parted_by_kind(models: Iterable[Model]) -> tuple[str, list[Model], list[Mode
 
 
 @functools.cache
-def find_layout(kind: str) -> LayOut | None:
+def find_layout(kind: str) -> KindLayoutFactory | None:
     """Return what lays out models of a kind; None for one without.
 
     Raises:
@@ -99,5 +99,5 @@ def find_layout(kind: str) -> LayOut | None:
     point = entry_points_of(_GROUP).get(kind) if kind else None
     if point is None:
         return None
-    found: LayOut = load(point, f"the layout of '{kind}' models", EngineError)
+    found: KindLayoutFactory = load(point, f"the layout of '{kind}' models", EngineError)
     return found

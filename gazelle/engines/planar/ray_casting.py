@@ -12,14 +12,14 @@ from gazelle.array_types import Floats, Worlds
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.fans import Scanner
 from gazelle.engines.planar.ray_fans import (
+    CachedCaster,
     Caster,
-    KeptCaster,
     RayFan,
     caster_of,
     check_level,
     fan_of,
 )
-from gazelle.engines.planar.worlds import RunningPlane
+from gazelle.engines.planar.worlds import PlanarState
 from gazelle.engines.range_rays import RangeRays
 from gazelle.errors import EngineError
 from gazelle.native.system import System
@@ -34,9 +34,9 @@ class PlanarRays:
         make_kinematic: The engine's; a sensor needs a body to sit on.
     """
 
-    def __init__(self, run: RunningPlane, make_kinematic: Callable[[str], None]) -> None:
+    def __init__(self, run: PlanarState, make_kinematic: Callable[[str], None]) -> None:
         self._run, self._make_kinematic = run, make_kinematic
-        self._casters: dict[tuple[str, bytes, bytes, float], KeptCaster] = {}
+        self._casters: dict[tuple[str, bytes, bytes, float], CachedCaster] = {}
         run.on_change.append(self._casters.clear)
 
     def caster(self, link: str, origins: Floats, directions: Floats) -> Caster:
@@ -47,7 +47,7 @@ class PlanarRays:
         """
         return self.keep(RangeRays(link, origins, directions)).caster
 
-    def keep(self, rays: RangeRays) -> KeptCaster:
+    def keep(self, rays: RangeRays) -> CachedCaster:
         """Return a cached caster, or one that is cached from now on."""
         link, origins, directions = rays.link, rays.origins, rays.directions
         key = (link, origins.tobytes(), directions.tobytes(), rays.reach)
@@ -58,7 +58,7 @@ class PlanarRays:
         model = self._run.owner(link)
         columns = self._run.layout.columns[model] + self._run.model(model).tree.columns_of(link)
         angles = self._run.angles[:, columns].copy() if len(columns) else self._run.angles[:0]
-        kept = self._casters[key] = KeptCaster(caster, columns, angles, origins, directions)
+        kept = self._casters[key] = CachedCaster(caster, columns, angles, origins, directions)
         return kept
 
     def range_kind(self, rays: RangeRays) -> Hashable | None:
@@ -114,9 +114,9 @@ class PlanarRanges:
         rays: Rays of each range finder.
     """
 
-    def __init__(self, casting: PlanarRays, run: RunningPlane, rays: Sequence[RangeRays]) -> None:
+    def __init__(self, casting: PlanarRays, run: PlanarState, rays: Sequence[RangeRays]) -> None:
         self._casting, self._run, self._rays = casting, run, tuple(rays)
-        self._kept: list[KeptCaster] = []
+        self._kept: list[CachedCaster] = []
         self._begin = 0.0
         self.system: System | None = None
         self.ranges: Floats = np.zeros((0, 0))
@@ -137,7 +137,7 @@ class PlanarRanges:
         found = [kept.caster.ranges(worlds) for kept in self._casters()]
         return found[0][:, None] if len(found) == 1 else np.stack(found, axis=1)
 
-    def _casters(self) -> list[KeptCaster]:
+    def _casters(self) -> list[CachedCaster]:
         """Return what casts the rays of each, as long as nothing turns their links."""
         angles = self._run.angles
         if not self._kept or not all(kept.holds(angles) for kept in self._kept):

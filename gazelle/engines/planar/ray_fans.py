@@ -53,7 +53,7 @@ class Caster:
 
 
 @dataclass(frozen=True, slots=True)
-class KeptCaster:
+class CachedCaster:
     """A caster as long as nothing turns what its rays hang on.
 
     Attributes:

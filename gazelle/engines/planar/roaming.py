@@ -13,7 +13,7 @@ from gazelle.native.loop import SystemLoop
 
 
 @dataclass(frozen=True, slots=True)
-class Manner:
+class RoamingSettings:
     """Parameters of roaming.
 
     Attributes:
@@ -48,10 +48,10 @@ class Roaming:
         self,
         fleet: Fleet,
         scanner: Scanner | None = None,
-        manner: Manner | None = None,
+        manner: RoamingSettings | None = None,
         seed: int = 0,
     ) -> None:
-        manner = manner or Manner()
+        manner = manner or RoamingSettings()
         self.fleet, self.scanner = fleet, scanner
         total = fleet.nworld * fleet.nbody
         sensor, ranges = np.full(total, -1, np.int64), np.zeros((0, 1))

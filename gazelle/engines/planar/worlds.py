@@ -24,7 +24,7 @@ from gazelle.errors import EngineError, did_you_mean
 T = TypeVar("T")
 
 
-class RunningPlane:
+class PlanarState:
     """Many copies of a world seen from above, which the parts of the engine share.
 
     Args:

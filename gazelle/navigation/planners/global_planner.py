@@ -1,4 +1,4 @@
-"""``global_planner/GlobalPlanner``: as navfn, with prices and headings to choose."""
+"""``global_planner/GlobalPlanner``: as navfn, with traversal costs and headings to choose."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ _STRAIGHT_RAD: Final = 0.35
 class GlobalPlannerSettings:
     """Parameters of ``global_planner``; names and defaults are the original's.
 
-    With ``use_dijkstra`` false a price is the cell's cost and ``neutral_cost``, as there, but costs from
+    With ``use_dijkstra`` false the traversal cost is the cell's cost and ``neutral_cost``, as there, but costs from
     206 on do not become cheap, which they do there where the sum of both exceeds a byte.
     ``planner_window_x`` and ``planner_window_y`` are not used there either, and the outermost cells are
     closed here whatever ``outline_map`` says.
@@ -47,8 +47,8 @@ class GlobalPlannerSettings:
     allow_unknown: bool = True
     default_tolerance: float = 0.0
     lethal_cost: int = tunable(253, 1, 255, "cost from which a cell is closed")
-    neutral_cost: int = tunable(50, 1, 255, "price of a cell without any cost")
-    cost_factor: float = tunable(3.0, 0.01, 5.0, "price of each unit of a cell's cost")
+    neutral_cost: int = tunable(50, 1, 255, "traversal cost of a free cell")
+    cost_factor: float = tunable(3.0, 0.01, 5.0, "factor of the cost of the costmap")
     use_dijkstra: bool = True
     use_quadratic: bool = True
     use_grid_path: bool = False
@@ -88,7 +88,7 @@ class GlobalPlanner(PotentialPlanner):
         self.grid_path = self.settings.use_grid_path
         self.exact_start = not self.settings.old_navfn_behavior
 
-    def prices(self) -> Floats32:
+    def traversal_costs(self) -> Floats32:
         """Return neutral cost and factor times cost, below lethal; see `PotentialPlanner`."""
         lethal, neutral = self.settings.lethal_cost, self.settings.neutral_cost
         costs = np.arange(256, dtype=np.float32)
@@ -101,13 +101,13 @@ class GlobalPlanner(PotentialPlanner):
             table[costs >= lethal] = 0.0
             unknown = neutral + float(NO_INFORMATION)
         table[NO_INFORMATION] = unknown if self.allow_unknown else 0.0
-        prices: Floats32 = table.astype(np.float32)
-        return prices
+        traversal_costs: Floats32 = table.astype(np.float32)
+        return traversal_costs
 
     def _spread(
         self,
         field: PotentialField,
-        prices: Floats32,
+        traversal_costs: Floats32,
         ends: tuple[tuple[int, int], tuple[int, int]],
         least: float,
         *,
@@ -115,9 +115,9 @@ class GlobalPlanner(PotentialPlanner):
     ) -> None:
         """Find potentials, by A* where ``use_dijkstra`` is false; see `PotentialPlanner`."""
         if self.dijkstra:
-            super()._spread(field, prices, ends, least, everywhere=everywhere)
+            super()._spread(field, traversal_costs, ends, least, everywhere=everywhere)
         else:
-            field.seek(prices, *ends, float(self.settings.neutral_cost), self.quadratic)
+            field.seek(traversal_costs, *ends, float(self.settings.neutral_cost), self.quadratic)
 
     def oriented(self, plan: Floats, start: Pose2) -> Floats:
         """Return headings by ``orientation_mode``; the goal keeps its own."""

@@ -49,8 +49,8 @@ class PotentialPlanner(GlobalPlannerPlugin):
         self.on_potential: Callable[[Floats32], None] | None = None
         self._field: PotentialField | None = None
 
-    def prices(self) -> Floats32:
-        """Return the price of crossing a cell, by its cost; 0 where it is closed; shape (256,)."""
+    def traversal_costs(self) -> Floats32:
+        """Return the traversal cost of a cell by its cost in the costmap; 0 where it is closed; shape (256,)."""
         table = _NEUTRAL + _FACTOR * np.arange(256, dtype=np.float32)
         table[INSCRIBED:] = 0.0
         table[NO_INFORMATION] = _UNKNOWN if self.allow_unknown else 0.0
@@ -61,16 +61,16 @@ class PotentialPlanner(GlobalPlannerPlugin):
         """Return the cheapest path; see `GlobalPlannerPlugin`."""
         first = self.costmap.cell_of(start[0], start[1])
         last = self.costmap.cell_of(goal[0], goal[1])
-        table = self.prices()
+        table = self.traversal_costs()
         if first is None or last is None or not table.any():
             return NO_PLAN
-        prices = table.take(self.costmap.cells)
+        traversal_costs = table.take(self.costmap.cells)
         # The cell of the robot is free, whatever the map has there.
-        prices[first[1], first[0]] = table[0]
+        traversal_costs[first[1], first[0]] = table[0]
         field = self._prepared()
         reach = self.tolerance if tolerance is None else tolerance
         least = float(table[table > 0.0].min())
-        self._spread(field, prices, (first, last), least, everywhere=reach > 0.0)
+        self._spread(field, traversal_costs, (first, last), least, everywhere=reach > 0.0)
         if self.on_potential is not None:
             self.on_potential(field.values)
         end = last if reach <= 0.0 else self._nearest(field, last, reach)
@@ -84,7 +84,7 @@ class PotentialPlanner(GlobalPlannerPlugin):
     def _spread(
         self,
         field: PotentialField,
-        prices: Floats32,
+        traversal_costs: Floats32,
         ends: tuple[tuple[int, int], tuple[int, int]],
         least: float,
         *,
@@ -94,12 +94,14 @@ class PotentialPlanner(GlobalPlannerPlugin):
 
         Args:
             field: Of the costmap's shape.
-            prices: Of all cells.
+            traversal_costs: Of all cells.
             ends: Columns and rows of the robot and of the goal.
-            least: The least price of an open cell.
+            least: The least traversal cost of an open cell.
             everywhere: Whether cells around a goal out of reach are needed, too.
         """
-        field.spread(prices, ends[0], None if everywhere else ends[1], least, self.quadratic)
+        field.spread(
+            traversal_costs, ends[0], None if everywhere else ends[1], least, self.quadratic
+        )
 
     def _prepared(self) -> PotentialField:
         rows, columns = self.costmap.cells.shape

@@ -12,7 +12,7 @@ from gazelle.stage.bridge.naming import Naming
 from gazelle.stage.bridge.parameters import read_parameters
 from gazelle.stage.bridge.place import GraphRobot
 from gazelle.stage.bridge.poses import PoseServices
-from gazelle.stage.bridge.robot import Messages, RobotInputs, RobotTopics, facts_of
+from gazelle.stage.bridge.robot import Messages, RobotInputs, RobotTopics, graph_state
 from gazelle.stage.bridge.services import Services
 from gazelle.stage.bridge.watchdog import Watchdog
 from gazelle_ros import Node, Time
@@ -105,7 +105,7 @@ class StageInterface(Closeable):
     def publish(self) -> None:
         """Publish the present values and the time, to all subscribers."""
         self._tick()
-        facts = facts_of(self._stage, self._world, self.now())
+        facts = graph_state(self._stage, self._world, self.now())
         watched = [key for topics in self._topics for key in topics.cameras.watched()]
         if watched:
             self._stage.draw(watched)

@@ -22,7 +22,7 @@ Values = list[float]
 
 
 @dataclass(frozen=True, slots=True)
-class Facts:
+class GraphState:
     """The state of all robots of the world that the graph sees, each a list by robot.
 
     Attributes:
@@ -42,9 +42,9 @@ class Facts:
     stalled: list[bool]
 
 
-def facts_of(simulation: StageFleet, world: int, stamp: Time) -> Facts:
+def graph_state(simulation: StageFleet, world: int, stamp: Time) -> GraphState:
     """Return the state now; arrays become lists at once, as messages need them."""
-    return Facts(
+    return GraphState(
         stamp,
         simulation.odometry[world].tolist(),
         simulation.velocities[world].tolist(),
@@ -116,7 +116,7 @@ class RobotTopics:
             for k, each in seeing
         ]
 
-    def publish(self, facts: Facts) -> None:
+    def publish(self, facts: GraphState) -> None:
         """Publish the present values to all subscribers."""
         i = self._robot.index
         if self._odom.has_subscribers:
@@ -136,7 +136,7 @@ class RobotTopics:
         self._grippers.publish(facts.stamp)
         self._actuators.publish()
 
-    def transforms(self, facts: Facts) -> list[Any]:
+    def transforms(self, facts: GraphState) -> list[Any]:
         """Return transforms from odom to base_footprint, base_link, lasers and cameras in use."""
         x, y, yaw = facts.odometry[self._robot.index]
         found = [
@@ -164,7 +164,7 @@ class RobotTopics:
         for laser in self._lasers:
             laser.publisher.close()
 
-    def _odometry(self, facts: Facts, pose: Values, velocity: Values) -> nav_msgs.msg.Odometry:
+    def _odometry(self, facts: GraphState, pose: Values, velocity: Values) -> nav_msgs.msg.Odometry:
         message = self._messages.odometry()
         message.header.stamp = facts.stamp
         message.header.frame_id = self._odom_frame
@@ -175,7 +175,7 @@ class RobotTopics:
         twist.linear.x, twist.linear.y, twist.angular.z = velocity
         return message
 
-    def _scan(self, facts: Facts, laser: _Laser) -> sensor_msgs.msg.LaserScan:
+    def _scan(self, facts: GraphState, laser: _Laser) -> sensor_msgs.msg.LaserScan:
         sensor = laser.ranger.sensors[0]
         scanner, place = laser.ranger.places[0]
         message = self._messages.scan()
@@ -189,7 +189,7 @@ class RobotTopics:
         return message
 
     def _transform(
-        self, facts: Facts, parent: str, child: str, x: float, y: float, z: float, yaw: float
+        self, facts: GraphState, parent: str, child: str, x: float, y: float, z: float, yaw: float
     ) -> geometry_msgs.msg.TransformStamped:
         message = self._messages.transform()
         message.header.stamp = facts.stamp

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.errors import TaskError
-from gazelle.training.deploy.pilot import Tick
+from gazelle.training.deploy.pilot import PilotOutput
 from gazelle.training.deploy.safety import VelocityCommand
 from gazelle_ros.base.writing import GrowingFile
 
@@ -42,7 +42,7 @@ class InterventionLog:
         self._began = 0.0
         self.count = 0
 
-    def follow(self, tick: Tick, now: float) -> None:
+    def follow(self, tick: PilotOutput, now: float) -> None:
         """Add the pilot's report; numbers in a reason do not make it another one."""
         cause = "" if tick.reason is None else tick.reason.partition(" at ")[0]
         if cause == self._cause:

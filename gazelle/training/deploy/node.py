@@ -16,7 +16,7 @@ from gazelle.training.deploy.goals import GoalPlace, GoalResult
 from gazelle.training.deploy.guarding import Guarded, GuardLostError
 from gazelle.training.deploy.interventions import InterventionLog
 from gazelle.training.deploy.messages import floats_message, goal_of, odometry_of, scan_of
-from gazelle.training.deploy.pilot import Acted, Pilot, Tick
+from gazelle.training.deploy.pilot import Pilot, PilotOutput, PolicyStep
 from gazelle.training.deploy.policies import Policy
 from gazelle.training.deploy.safety import SafetyLimits
 from gazelle_ros import MasterProxy, Node
@@ -225,7 +225,7 @@ class DeployNode(Closeable):
             self._publish_end(tick.ended)
         self._publish_status(tick)
 
-    def _publish_action(self, acted: Acted) -> None:
+    def _publish_action(self, acted: PolicyStep) -> None:
         self._best = max(self._best, acted.decision.best_output)
         self._score = acted.score
         action = acted.decision.action
@@ -248,7 +248,7 @@ class DeployNode(Closeable):
         if self._on_end is not None:
             self._on_end(ended)
 
-    def _publish_status(self, tick: Tick) -> None:
+    def _publish_status(self, tick: PilotOutput) -> None:
         if not self.pilot.armed:
             text = "disarmed"
         elif not tick.active:

@@ -27,7 +27,7 @@ _SPEED_CHANGE = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
-class Acted:
+class PolicyStep:
     """One act of the policy."""
 
     decision: Decision
@@ -39,7 +39,7 @@ class Acted:
 
 
 @dataclass(frozen=True, slots=True)
-class Tick:
+class PilotOutput:
     """Output of the pilot at one moment."""
 
     command: VelocityCommand
@@ -50,7 +50,7 @@ class Tick:
     """Command of the policy."""
     reason: str | None = None
     """Why the command is not what the policy wants; None where it is."""
-    acted: Acted | None = None
+    acted: PolicyStep | None = None
     """Set where the policy acted at this moment."""
     ended: GoalResult | None = None
     """Set where a goal came to its end at this moment."""
@@ -137,7 +137,7 @@ class Pilot:
 
     # What is done --------------------------------------------------------------------------
 
-    def tick(self, now: float, place: tuple[float, float] | None) -> Tick:
+    def tick(self, now: float, place: tuple[float, float] | None) -> PilotOutput:
         """Return the command of this moment.
 
         Args:
@@ -150,7 +150,7 @@ class Pilot:
             self._halt()
         self._now = now
         if not self.armed or self.goal is None:
-            return Tick(STAND, active=False)
+            return PilotOutput(STAND, active=False)
         if self._began is None:
             self._began = now
         fault = self._blind(now)
@@ -159,12 +159,12 @@ class Pilot:
         if fault is not None or place is None or self._scan is None or self._odometry is None:
             last, self._policy_command = self._policy_command, STAND
             self._acted_at = -math.inf
-            return Tick(STAND, active=True, policy_command=last, reason=fault)
+            return PilotOutput(STAND, active=True, policy_command=last, reason=fault)
         return self._drive(now, place, self._scan[1], self._odometry[1])
 
     def _drive(
         self, now: float, place: tuple[float, float], scan: ScanReading, odometry: OdometryReading
-    ) -> Tick:
+    ) -> PilotOutput:
         """Act if it is due, and keep within the limits."""
         acted = None
         if self._fresh and now - self._acted_at >= _EARLY * self._period:
@@ -172,26 +172,26 @@ class Pilot:
             ended = self._judge(now, place, scan, odometry)
             if ended is not None:
                 # What follows is another goal, or nothing to do.
-                return Tick(STAND, active=self.goal is not None, ended=ended)
+                return PilotOutput(STAND, active=self.goal is not None, ended=ended)
             acted = self._act(now, place, scan, odometry)
         command = self.limits.limited(self._policy_command)
         reason = None if command == self._policy_command else "limit"
         nearest = self.limits.blocked(command, scan, turned=self._turned)
         if nearest is not None:
             command, reason = VelocityCommand(0.0, command.angular), f"obstacle at {nearest:.2f} m"
-        return Tick(
+        return PilotOutput(
             command, active=True, policy_command=self._policy_command, reason=reason, acted=acted
         )
 
     def _act(
         self, now: float, place: tuple[float, float], scan: ScanReading, odometry: OdometryReading
-    ) -> Acted:
+    ) -> PolicyStep:
         decision = self.policy.decide(self._observer.observe(scan, odometry, place))
         distance = distance_to_goal(odometry, place)
         gain = 0.0 if self._distance is None else self._distance - distance
         self._score += gain
         self._distance, self._acted_at, self._policy_command = distance, now, decision.command
-        return Acted(decision, gain, self._score)
+        return PolicyStep(decision, gain, self._score)
 
     def _judge(
         self, now: float, place: tuple[float, float], scan: ScanReading, odometry: OdometryReading

@@ -19,7 +19,7 @@ from gazelle.training.deploy.safety import VelocityCommand
 from gazelle.training.policy_files import load_policy
 
 
-class Brain(Protocol):
+class PolicyNetwork(Protocol):
     """Protocol of a policy network: observations (N, entries) to its outputs and actions."""
 
     def decide(self, obs: Floats32) -> tuple[Floats32, npt.NDArray[Any]]:
@@ -49,7 +49,7 @@ class Policy:
         TaskError: Its actions are no velocities.
     """
 
-    def __init__(self, brain: Brain, contract: PolicyContract) -> None:
+    def __init__(self, brain: PolicyNetwork, contract: PolicyContract) -> None:
         if contract.action.kind != "velocity":
             raise TaskError(
                 "the policy's actions are no velocities, so there is nothing to send",
@@ -99,7 +99,9 @@ def open_policy(source: str | Path, *, imports: Sequence[str] = (), trust: bool 
             Runtime is not installed, or the run names code that is not trusted.
     """
     file, contract = load_policy(source, imports=imports, trust=trust)
-    brain: Brain = _OnnxBrain(file) if file.suffix == ".onnx" else _ArrayBrain(load_actor(file))
+    brain: PolicyNetwork = (
+        _OnnxNetwork(file) if file.suffix == ".onnx" else _ArrayNetwork(load_actor(file))
+    )
     outputs, _ = brain.decide(np.zeros((1, contract.size), np.float32))
     if contract.action.choices and outputs.shape[1] != len(contract.action.choices):
         raise FormatError(
@@ -110,7 +112,7 @@ def open_policy(source: str | Path, *, imports: Sequence[str] = (), trust: bool 
     return Policy(brain, contract)
 
 
-class _ArrayBrain:
+class _ArrayNetwork:
     def __init__(self, actor: Actor) -> None:
         if actor.memory is not None:
             hint = "deploy one without, such as of --algo ppo; 'gazelle eval' runs this one"
@@ -126,7 +128,7 @@ class _ArrayBrain:
         return outputs, self._actor.to_env(self._actor.mode(outputs))
 
 
-class _OnnxBrain:
+class _OnnxNetwork:
     def __init__(self, file: Path) -> None:
         # Else it reports each use to its makers, and keeps an identity and a queue in the home folder.
         os.environ.setdefault("ORT_DISABLE_TELEMETRY", "1")

@@ -28,7 +28,7 @@ from gazelle.training.actor import Actor
 from gazelle.training.export import export_actor
 from gazelle.training.learners.arguments import Learner, common_arguments
 from gazelle.training.learners.ppo_dense_update import DenseUpdate, fits_dense_update
-from gazelle.training.learners.ppo_overlapped_update import UpdateAhead
+from gazelle.training.learners.ppo_overlapped_update import OverlappedUpdate
 from gazelle.training.learners.ppo_update import (
     NAMES,
     Transitions,
@@ -91,7 +91,7 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
     scale: ObservationScale
     bfloat16: bool = False
     overlap: bool = False
-    ahead: UpdateAhead | None = None
+    ahead: OverlappedUpdate | None = None
     _last_obs: Floats32
     _last_episode_starts: npt.NDArray[np.bool_]
 
@@ -167,7 +167,7 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
         return self
 
     def train(self) -> None:
-        """Train on the rollout, or start to if updates run ahead; see `UpdateAhead`."""
+        """Train on the rollout, or start to if updates run ahead; see `OverlappedUpdate`."""
         self.policy.set_training_mode(True)
         self._update_learning_rate(self.policy.optimizer)
         weights = Weights(
@@ -196,7 +196,7 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
             with products(bfloat16=self.bfloat16):
                 self._end_update(learn())
             return
-        self.ahead = UpdateAhead(dense, learn)
+        self.ahead = OverlappedUpdate(dense, learn)
         self.ahead.start()
         if not self.overlap:
             self._hand_over()
@@ -207,8 +207,8 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
         return DenseUpdate(self.policy, self.max_grad_norm, bfloat16=rounded)
 
     def go_on_ahead(self, state: Mapping[str, Any]) -> None:
-        """Restore an update to hand over, from `UpdateAhead.get_state`, as in a checkpoint."""
-        self.ahead = UpdateAhead.from_state(self._dense_update(), state)
+        """Restore an update to hand over, from `OverlappedUpdate.get_state`, as in a checkpoint."""
+        self.ahead = OverlappedUpdate.from_state(self._dense_update(), state)
 
     def _hand_over(self) -> None:
         """Apply the running update's result to the policy, if there is one."""

@@ -17,7 +17,7 @@ import torch
 from gazelle.training.learners.ppo_dense_update import DenseUpdate
 
 
-class UpdateAhead:
+class OverlappedUpdate:
     """An update under way, or done and not handed over yet.
 
     Args:
@@ -62,7 +62,7 @@ class UpdateAhead:
         return {**self._update.get_state(), "figures": self._figures}
 
     @classmethod
-    def from_state(cls, update: DenseUpdate, state: Mapping[str, Any]) -> UpdateAhead:
+    def from_state(cls, update: DenseUpdate, state: Mapping[str, Any]) -> OverlappedUpdate:
         """Return a finished update, from what `get_state` returned."""
         update.set_state(state)
         found = cls(update, list)

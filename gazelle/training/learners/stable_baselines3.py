@@ -11,7 +11,7 @@ from stable_baselines3.common.off_policy_algorithm import OffPolicyAlgorithm
 
 from gazelle.errors import MissingExtraError, TaskError, did_you_mean
 from gazelle.training.learners.arguments import replay_options
-from gazelle.training.overrides import algorithms_heeding
+from gazelle.training.overrides import supporting_algorithms
 from gazelle.training.recipes import LIBRARY_ALGORITHMS, LibrarySettings, Recipe
 from gazelle.training.supported_values import unsupported_error
 from gazelle.training.vecenv import VectorEnvAdapter
@@ -55,8 +55,8 @@ def _check_options(algo: str, settings: LibrarySettings, kind: type[Any]) -> Non
         if name in _GIVEN:
             raise TaskError(f"{algo} is given its '{name}'", hint="leave it out")
         if name not in taken:
-            if heeding := algorithms_heeding(name):
-                raise unsupported_error(algo, name, heeding)
+            if supporting := supporting_algorithms(name):
+                raise unsupported_error(algo, name, supporting)
             hint = did_you_mean(name, taken)
             raise TaskError(f"{algo} does not take '{name}'", hint=hint)
 

@@ -8,7 +8,7 @@ workers there are nor on which of them are lost on the way.
 
 from __future__ import annotations
 
-from gazelle.training.workers.shards import Blueprint, ShardHost, divided
-from gazelle.training.workers.team import Team, WorkerLink, WorkerLostError
+from gazelle.training.workers.shards import ShardHost, ShardSpec, divided
+from gazelle.training.workers.team import WorkerGroup, WorkerLink, WorkerLostError
 
-__all__ = ["Blueprint", "ShardHost", "Team", "WorkerLink", "WorkerLostError", "divided"]
+__all__ = ["ShardHost", "ShardSpec", "WorkerGroup", "WorkerLink", "WorkerLostError", "divided"]

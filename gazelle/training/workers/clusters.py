@@ -13,7 +13,7 @@ from typing import Any
 
 from gazelle.errors import MissingExtraError, TaskError
 from gazelle.native.processors import VARIABLE
-from gazelle.training.workers.shards import Blueprint, ShardHost
+from gazelle.training.workers.shards import ShardHost, ShardSpec
 from gazelle.training.workers.team import WorkerLink, WorkerLostError
 from gazelle_ros.base.child_processes import command_line, descendants
 from gazelle_ros.base.interrupts import Interrupted, holding
@@ -155,6 +155,6 @@ def connected() -> Any:
     return ray
 
 
-def start_actors(blueprint: Blueprint) -> Callable[[Sequence[int]], WorkerLink]:
-    """Return a function that starts a worker, see `Team`."""
+def start_actors(blueprint: ShardSpec) -> Callable[[Sequence[int]], WorkerLink]:
+    """Return a function that starts a worker, see `WorkerGroup`."""
     return lambda numbers: RayLink(ShardHost, blueprint, tuple(numbers))

@@ -10,8 +10,8 @@ from gazelle.training.runs import RunConfig
 from gazelle.training.tasks import fitting_copies, make_task
 from gazelle.training.workers.clusters import connect, start_actors
 from gazelle.training.workers.processes import start_processes
-from gazelle.training.workers.shards import Blueprint, divided
-from gazelle.training.workers.team import Team
+from gazelle.training.workers.shards import ShardSpec, divided
+from gazelle.training.workers.team import WorkerGroup
 from gazelle.training.workers.vecenv import WorkerVecEnv
 
 
@@ -36,7 +36,7 @@ def join_workers(
     recipe = config.recipe
     fewest = fitting_copies(config.task, 1, config.options)
     sizes = divided(recipe.num_envs, fewest)
-    blueprint = Blueprint(
+    blueprint = ShardSpec(
         task=config.task,
         sizes=sizes,
         options=config.options,
@@ -51,7 +51,7 @@ def join_workers(
         there = connect(ray)
         count = workers or min(there, len(sizes))
         start = start_actors(blueprint)
-    team = Team(start, len(sizes), count)
+    team = WorkerGroup(start, len(sizes), count)
     try:
         return WorkerVecEnv(
             team,

@@ -16,7 +16,7 @@ from collections.abc import Callable, Sequence
 from typing import IO, Any
 
 from gazelle.native.processors import VARIABLE, processors
-from gazelle.training.workers.shards import Blueprint, ShardHost
+from gazelle.training.workers.shards import ShardHost, ShardSpec
 from gazelle.training.workers.team import WorkerLink, WorkerLostError
 
 _LENGTH = struct.Struct("<Q")
@@ -90,8 +90,8 @@ class ProcessLink:
             _open(self._process.stdout).close()
 
 
-def start_processes(blueprint: Blueprint, workers: int) -> Callable[[Sequence[int]], WorkerLink]:
-    """Return a function that starts one of this many workers, see `Team`."""
+def start_processes(blueprint: ShardSpec, workers: int) -> Callable[[Sequence[int]], WorkerLink]:
+    """Return a function that starts one of this many workers, see `WorkerGroup`."""
     threads = max(1, processors() // workers)
     return lambda numbers: ProcessLink(ShardHost, blueprint, tuple(numbers), threads=threads)
 

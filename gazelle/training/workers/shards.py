@@ -48,7 +48,7 @@ def divided(copies: int, unit: int = 1) -> tuple[int, ...]:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Blueprint:
+class ShardSpec:
     """All that a worker must know to make a shard."""
 
     task: str
@@ -96,11 +96,11 @@ class Shard:
     """Some copies of a task with generators of their own.
 
     Args:
-        blueprint: Blueprint of the copies.
+        blueprint: ShardSpec of the copies.
         number: Index of the blueprint's shard.
     """
 
-    def __init__(self, blueprint: Blueprint, number: int) -> None:
+    def __init__(self, blueprint: ShardSpec, number: int) -> None:
         env = make_task(blueprint.task, blueprint.sizes[number], **blueprint.options)
         self.number = number
         self.copies = TaskCopies(
@@ -144,11 +144,11 @@ class ShardHost:
     """A worker's side: holds shards and runs requests.
 
     Args:
-        blueprint: Blueprint of the shards.
+        blueprint: ShardSpec of the shards.
         numbers: Indices of its shards.
     """
 
-    def __init__(self, blueprint: Blueprint, numbers: Sequence[int]) -> None:
+    def __init__(self, blueprint: ShardSpec, numbers: Sequence[int]) -> None:
         self._blueprint = blueprint
         self._numbers = tuple(numbers)
 

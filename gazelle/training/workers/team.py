@@ -40,7 +40,7 @@ class WorkerLink(Protocol):
         """Stop the worker and wait for it."""
 
 
-class Team:
+class WorkerGroup:
     """Some workers and the shards that they hold.
 
     A worker that is lost is started again, gets its shards back as they were after the last

@@ -17,7 +17,7 @@ from gazelle.training.picture_layers import observation_dtype
 from gazelle.training.rollout import Rollout, join
 from gazelle.training.shared_vecenv import SharedVecEnv
 from gazelle.training.workers.shards import ShardStep
-from gazelle.training.workers.team import Team
+from gazelle.training.workers.team import WorkerGroup
 
 
 class WorkerVecEnv(SharedVecEnv):
@@ -41,7 +41,7 @@ class WorkerVecEnv(SharedVecEnv):
 
     def __init__(
         self,
-        team: Team,
+        team: WorkerGroup,
         sizes: Sequence[int],
         *,
         on_episodes: Callable[[Episodes], None] | None = None,

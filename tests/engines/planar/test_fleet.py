@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gazelle.engines.planar import Body, Drive, Fan, Fleet, Mount, PlanarPart, RangeNoise, Scanner
-from gazelle.engines.planar.roaming import Manner, Roaming
+from gazelle.engines.planar.roaming import Roaming, RoamingSettings
 from gazelle.errors import EngineError
 
 shapely = pytest.importorskip("shapely")
@@ -219,7 +219,7 @@ def roam(threads, nworld=1, count=300):
     scanner = Scanner(
         fleet, Fan.spread(math.pi, 60, 4.0), mounts, noise=RangeNoise(0.01), seed=5, named=True
     )
-    Roaming(fleet, scanner, Manner(shy=0.05), seed=4).run(40)
+    Roaming(fleet, scanner, RoamingSettings(shy=0.05), seed=4).run(40)
     return fleet, scanner
 
 

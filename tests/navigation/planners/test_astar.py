@@ -62,7 +62,9 @@ def test_it_finds_a_way_where_dijkstra_does_and_looks_at_fewer_cells(seed, quadr
         assert found[-1].tolist() == list(GOAL)
         columns, rows = np.rint(found[:, :2].T / 0.05 - 0.5).astype(int)
         assert cells[rows, columns].max() < 253
-        prices = GlobalPlanner("g", costmap_of_cells(cells), {"use_dijkstra": False}).prices()
+        prices = GlobalPlanner(
+            "g", costmap_of_cells(cells), {"use_dijkstra": False}
+        ).traversal_costs()
         assert price_of(found, prices[cells]) < 2.0 * price_of(exact, prices[cells])
 
 
@@ -78,10 +80,12 @@ def test_in_the_open_it_looks_at_a_small_part_of_the_map():
 def test_prices_are_costs_and_neutral_cost_and_the_factor_is_unused():
     costmap = costmap_of_cells(np.zeros((20, 20), np.uint8))
     given = {"use_dijkstra": False, "neutral_cost": 60, "cost_factor": 5.0}
-    prices = GlobalPlanner("g", costmap, given).prices()
+    prices = GlobalPlanner("g", costmap, given).traversal_costs()
     assert prices[:253].tolist() == [60.0 + cost for cost in range(253)]
     assert prices[[253, 254, 255]].tolist() == [0.0, 0.0, 315.0]
-    assert GlobalPlanner("g", costmap, given | {"allow_unknown": False}).prices()[255] == 0.0
+    assert (
+        GlobalPlanner("g", costmap, given | {"allow_unknown": False}).traversal_costs()[255] == 0.0
+    )
 
 
 def test_a_goal_out_of_reach_is_reached_nearly():

@@ -81,7 +81,7 @@ def test_a_plan_costs_at_most_one_percent_more_than_the_cheapest(seed, kind):
     cells = cluttered(seed)
     costmap = costmap_of_cells(cells)
     planner = kind("p", costmap, {})
-    prices = planner.prices()[cells]
+    prices = planner.traversal_costs()[cells]
     exact = dijkstra(prices, (10, 10), (110, 110))
     plan = planner.make_plan((0.525, 0.525, 0.3), (5.525, 5.525, 1.0))
     if math.isinf(exact):

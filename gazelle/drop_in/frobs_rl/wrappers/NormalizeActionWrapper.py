@@ -7,11 +7,11 @@ from typing import Any
 import gymnasium
 from numpy.typing import NDArray
 
-from gazelle.drop_in.frobs_rl.wrappers.modern import EitherInterface
+from gazelle.drop_in.frobs_rl.wrappers.modern import EitherGymApi
 from gazelle.drop_in.frobs_rl.wrappers.unit_boxes import UnitBox
 
 
-class NormalizeActionWrapper(EitherInterface, gymnasium.ActionWrapper[Any, Any, Any]):
+class NormalizeActionWrapper(EitherGymApi, gymnasium.ActionWrapper[Any, Any, Any]):
     """Actions between -1 and 1 stand for those of the whole box.
 
     Args:

@@ -8,11 +8,11 @@ import gymnasium
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.drop_in.frobs_rl.wrappers.modern import EitherInterface
+from gazelle.drop_in.frobs_rl.wrappers.modern import EitherGymApi
 from gazelle.drop_in.frobs_rl.wrappers.unit_boxes import UnitBox
 
 
-class NormalizeObservWrapper(EitherInterface, gymnasium.ObservationWrapper[Any, Any, Any]):
+class NormalizeObservWrapper(EitherGymApi, gymnasium.ObservationWrapper[Any, Any, Any]):
     """Observations of a box, scaled so that its bounds become -1 and 1; outside they go beyond.
 
     Args:

@@ -7,10 +7,10 @@ from typing import Any
 import gymnasium
 
 from gazelle.drop_in.frobs_rl.envs.robot_BasicEnv import Result
-from gazelle.drop_in.frobs_rl.wrappers.modern import EitherInterface
+from gazelle.drop_in.frobs_rl.wrappers.modern import EitherGymApi
 
 
-class TimeLimitWrapper(EitherInterface, gymnasium.Wrapper[Any, Any, Any, Any]):
+class TimeLimitWrapper(EitherGymApi, gymnasium.Wrapper[Any, Any, Any, Any]):
     """Ends an episode after some steps, as no success; it is terminated and truncated then.
 
     Args:

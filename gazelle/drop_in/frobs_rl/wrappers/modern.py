@@ -11,7 +11,7 @@ from gazelle.drop_in.gym.core import Env
 from gazelle.drop_in.shimmy import GymV21CompatibilityV0
 
 
-class EitherInterface:
+class EitherGymApi:
     """A wrapper that has the interface of what it is around: the old gym's, or Gymnasium's."""
 
     def __new__(cls, env: Any, *arguments: Any, **options: Any) -> Any:

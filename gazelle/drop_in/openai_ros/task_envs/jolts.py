@@ -10,7 +10,7 @@ from gazelle_ros.compat import rospy
 from gazelle_ros.msgs import geometry_msgs
 
 
-class JoltTask(SteeringTask):
+class ImuSteeringTask(SteeringTask):
     """A `SteeringTask` of a robot with an IMU, by which it notices that it has hit something."""
 
     imu: Any

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 from gazelle.array_types import Bools, Floats, Indices, Worlds
 from gazelle.engines.planar.layout import PlanarLayout
 from gazelle.engines.planar.unsupported import refuse
-from gazelle.engines.planar.worlds import RunningPlane, rows_of
+from gazelle.engines.planar.worlds import PlanarState, rows_of
 from gazelle.engines.reactions import Wrench
 from gazelle.engines.table import Lookup
 from gazelle.errors import EngineError
@@ -23,7 +23,7 @@ class PlanarJointRow:
         name: Scoped name.
     """
 
-    def __init__(self, run: RunningPlane, name: str) -> None:
+    def __init__(self, run: PlanarState, name: str) -> None:
         self._run, self._name = run, name
 
     def position(self, worlds: Worlds | None = None) -> Floats:
@@ -70,7 +70,7 @@ class PlanarJointRows:
         names: Scoped names.
     """
 
-    def __init__(self, run: RunningPlane, names: tuple[str, ...]) -> None:
+    def __init__(self, run: PlanarState, names: tuple[str, ...]) -> None:
         self._run, self._names = run, names
         self._columns = Lookup[PlanarLayout, Indices](
             lambda _: np.array([run.axes(name).start for name in names], np.intp)
@@ -131,7 +131,7 @@ class PlanarJointRows:
         return self._run.targets, self._columns.within(self._run.layout)
 
 
-def motor_column(run: RunningPlane, joint: str) -> int:
+def motor_column(run: PlanarState, joint: str) -> int:
     """Return the column of a joint's motor.
 
     Raises:

@@ -17,7 +17,7 @@ from gazelle.engines.planar.layout import PlanarLayout
 from gazelle.engines.planar.ray_fans import Caster
 from gazelle.engines.planar.tables.models import PlanarModelRow
 from gazelle.engines.planar.unsupported import refuse
-from gazelle.engines.planar.worlds import RunningPlane, rows_of
+from gazelle.engines.planar.worlds import PlanarState, rows_of
 from gazelle.engines.table import Lookup
 from gazelle.rotations import conjugate, cross, from_yaw, multiply, rotate, unit
 
@@ -35,7 +35,7 @@ class PlanarLinkRow:
 
     def __init__(
         self,
-        run: RunningPlane,
+        run: PlanarState,
         name: str,
         model: Callable[[str], PlanarModelRow],
         hanging: HangingLinks,
@@ -156,7 +156,7 @@ class _LinkColumns:
     hinged: tuple[tuple[int, str, str], ...]
 
     @classmethod
-    def find(cls, run: RunningPlane, names: tuple[str, ...]) -> _LinkColumns:
+    def find(cls, run: PlanarState, names: tuple[str, ...]) -> _LinkColumns:
         """Look up links.
 
         Raises:
@@ -189,7 +189,7 @@ class PlanarLinkRows:
         names: Scoped names.
     """
 
-    def __init__(self, run: RunningPlane, names: tuple[str, ...]) -> None:
+    def __init__(self, run: PlanarState, names: tuple[str, ...]) -> None:
         self._run, self._names = run, names
         self._columns = Lookup[PlanarLayout, _LinkColumns](lambda _: _LinkColumns.find(run, names))
 

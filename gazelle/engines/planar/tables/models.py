@@ -15,7 +15,7 @@ from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.layout import PlanarLayout
 from gazelle.engines.planar.paths import PathFollower
 from gazelle.engines.planar.twist_commands import TwistCommands
-from gazelle.engines.planar.worlds import RunningPlane, rows_of
+from gazelle.engines.planar.worlds import PlanarState, rows_of
 from gazelle.engines.table import Lookup
 from gazelle.errors import EngineError
 from gazelle.native.paths import ModelPath
@@ -34,7 +34,7 @@ class PlanarModelRow:
         make_kinematic: The engine's.
     """
 
-    def __init__(self, run: RunningPlane, name: str, make_kinematic: Callable[[str], None]) -> None:
+    def __init__(self, run: PlanarState, name: str, make_kinematic: Callable[[str], None]) -> None:
         self._run, self._name, self._make_kinematic = run, name, make_kinematic
 
     def placement(self, worlds: Worlds | None = None) -> Placement:
@@ -170,7 +170,7 @@ class _ModelColumns:
     turned: Floats
 
     @classmethod
-    def find(cls, run: RunningPlane, names: tuple[str, ...]) -> _ModelColumns:
+    def find(cls, run: PlanarState, names: tuple[str, ...]) -> _ModelColumns:
         """Look up models.
 
         Raises:
@@ -196,7 +196,7 @@ class PlanarModelRows:
         names: Names of the models.
     """
 
-    def __init__(self, run: RunningPlane, names: tuple[str, ...]) -> None:
+    def __init__(self, run: PlanarState, names: tuple[str, ...]) -> None:
         self._run, self._names = run, names
         self._columns = Lookup[PlanarLayout, _ModelColumns](
             lambda _: _ModelColumns.find(run, names)

@@ -10,7 +10,7 @@ import struct
 
 from gazelle_ros.messages.base import Message
 from gazelle_ros.messages.emit import GeneratedCode, fixed_codes
-from gazelle_ros.messages.encode import Later
+from gazelle_ros.messages.encode import LazyFunction
 from gazelle_ros.messages.spec import OCTETS, STRUCT_CODES, Field, MessageSpec
 
 _TIME_CODES = {"time": "I", "duration": "i"}
@@ -208,7 +208,7 @@ class DecoderWriter:
         self._code.line(f"{place} = {self.position()}")
         cls = self._code.message_class(field.base, self._known)
         name = f"_reader_{self._mode}_{field.base.replace('/', '__')}"
-        later = Later(self._known[field.base], f"_read_{self._mode}", self._code, name)
+        later = LazyFunction(self._known[field.base], f"_read_{self._mode}", self._code, name)
         self._code.names.setdefault(name, later)
         with self._code.block(f"for _ in range({length}):"):
             self._code.line(f"m = _new({cls})")

@@ -140,7 +140,7 @@ class EncoderWriter:
         self.flush()
         name = f"_writer_{field.base.replace('/', '__')}"
         self._code.names.setdefault(
-            name, Later(self._known[field.base], "_write", self._code, name)
+            name, LazyFunction(self._known[field.base], "_write", self._code, name)
         )
         with self._code.block(f"for m in {local}:"):
             self._code.line(f"{name}(m, w)")
@@ -155,7 +155,7 @@ class EncoderWriter:
         return fixed_codes(spec, self._known), values
 
 
-class Later:
+class LazyFunction:
     """A function of another class that is compiled at its first call.
 
     Args:

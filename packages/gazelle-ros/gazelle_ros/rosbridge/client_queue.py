@@ -37,7 +37,7 @@ class TopicQueue:
 
 
 @dataclass(frozen=True, slots=True)
-class Parcel:
+class OutgoingMessage:
     """Something to be sent now: text that is ready, or a message to encode."""
 
     text: str | bytes | None = None
@@ -105,7 +105,7 @@ class ClientQueue:
             queue.waiting.clear()
             self._turns = deque(each for each in self._turns if each is not queue)
 
-    def take(self, now: float) -> tuple[Parcel | None, float | None]:
+    def take(self, now: float) -> tuple[OutgoingMessage | None, float | None]:
         """Return the next item to send, or else the time to look again [s]; None if not shortly.
 
         Args:
@@ -115,7 +115,7 @@ class ClientQueue:
             if self._answers:
                 text = self._answers.popleft()
                 self._answer_bytes -= len(text)
-                return Parcel(text), None
+                return OutgoingMessage(text), None
             early: deque[TopicQueue] = deque()
             found = None
             while self._turns and found is None:
@@ -134,12 +134,12 @@ class ClientQueue:
         settings = queue.settings
         return bool(settings.throttle and settings.queue_length) and now < queue.due()
 
-    def _pop(self, queue: TopicQueue, now: float) -> Parcel:
+    def _pop(self, queue: TopicQueue, now: float) -> OutgoingMessage:
         message = queue.waiting.popleft()
         self._topic_bytes -= len(message)
         if queue.settings.queue_length:
             queue.last = now
-        return Parcel(message=message, settings=queue.settings)
+        return OutgoingMessage(message=message, settings=queue.settings)
 
     def _shorten(self, queue: TopicQueue, most: int) -> None:
         """Remove the oldest messages of a topic, and as many of its turns."""

@@ -18,7 +18,7 @@ from gazelle_ros.base.errors import MissingExtraError, RosError
 from gazelle_ros.errors import report
 from gazelle_ros.node import Node
 from gazelle_ros.rosbridge.client_list import ClientList
-from gazelle_ros.rosbridge.client_queue import ClientQueue, Parcel
+from gazelle_ros.rosbridge.client_queue import ClientQueue, OutgoingMessage
 from gazelle_ros.rosbridge.fragments import split_text
 from gazelle_ros.rosbridge.origins import may_connect
 from gazelle_ros.rosbridge.session import BridgeContext, BridgeSession
@@ -162,20 +162,20 @@ class BridgeServer(Closeable):
         with contextlib.suppress(ConnectionClosed):
             while True:
                 news.clear()
-                parcel, later = outbox.take(time.monotonic())
-                if parcel is None:
+                outgoing, later = outbox.take(time.monotonic())
+                if outgoing is None:
                     await _wait(news, later)
                     continue
-                for frame in await self._frames(parcel):
+                for frame in await self._frames(outgoing):
                     await connection.send(frame)
                     if delay:
                         await asyncio.sleep(delay)
 
-    async def _frames(self, parcel: Parcel) -> list[str | bytes]:
-        """Encode a parcel as WebSocket frames; long messages are encoded on another thread."""
-        message, settings = parcel.message, parcel.settings
+    async def _frames(self, outgoing: OutgoingMessage) -> list[str | bytes]:
+        """Encode a outgoing as WebSocket frames; long messages are encoded on another thread."""
+        message, settings = outgoing.message, outgoing.settings
         if message is None:
-            return [] if parcel.text is None else [parcel.text]
+            return [] if outgoing.text is None else [outgoing.text]
         try:
             if len(message) <= _SMALL:
                 data = message.encoded(settings.compression)

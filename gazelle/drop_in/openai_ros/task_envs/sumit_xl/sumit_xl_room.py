@@ -9,14 +9,14 @@ from typing import ClassVar
 from gazelle.array_types import Floats
 from gazelle.drop_in.openai_ros.robot_envs.sumitxl_env import SumitXlEnv
 from gazelle.drop_in.openai_ros.task_envs.geometry import euler_of
-from gazelle.drop_in.openai_ros.task_envs.jolts import JoltTask
+from gazelle.drop_in.openai_ros.task_envs.jolts import ImuSteeringTask
 from gazelle.drop_in.openai_ros.task_envs.task_envs_list import register_task
 from gazelle.envs.discrete_drive.rules import SUMMIT_XL, DriveRules, StepRewards
 
 register_task("SumitXlRoom-v0")
 
 
-class SumitXlRoom(JoltTask, SumitXlEnv):
+class SumitXlRoom(ImuSteeringTask, SumitXlEnv):
     """Go to ``desired_pose``; parameters under ``/sumit_xl``.
 
     Observation: samples of the scan in whole metres, then x, y [m] and yaw [rad] with two decimals.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import ClassVar
 
 from gazelle.drop_in.openai_ros.robot_envs.turtlebot3_env import TurtleBot3Env
-from gazelle.drop_in.openai_ros.task_envs.jolts import JoltTask
+from gazelle.drop_in.openai_ros.task_envs.jolts import ImuSteeringTask
 from gazelle.drop_in.openai_ros.task_envs.task_envs_list import register_task
 from gazelle.envs.discrete_drive.rules import TURTLEBOT3_WORLD, DriveRules
 from gazelle_ros.msgs import sensor_msgs
@@ -13,7 +13,7 @@ from gazelle_ros.msgs import sensor_msgs
 register_task("TurtleBot3World-v0")
 
 
-class TurtleBot3WorldEnv(JoltTask, TurtleBot3Env):
+class TurtleBot3WorldEnv(ImuSteeringTask, TurtleBot3Env):
     """Go without touching anything; parameters under ``/turtlebot3``.
 
     Observation: every ``round(n / new_ranges)``-th of the n ranges, cut to whole metres; 6 for no return.

@@ -17,8 +17,8 @@ _NOTHING = ScriptMaterial()
 
 
 @dataclass(frozen=True, slots=True)
-class SurfaceLook:
-    """A look, ready to be drawn.
+class SurfaceMaterial:
+    """Material of a surface, ready to be drawn.
 
     Attributes:
         color: Red, green and blue, 0 to 1.
@@ -33,16 +33,18 @@ class SurfaceLook:
     alpha: float = 1.0
 
 
-def surface_look(visual: Visual, piece: ShapePiece) -> SurfaceLook:
-    """Return the look of a piece of a visual: its material precedes what is in the mesh file."""
+def surface_material(visual: Visual, piece: ShapePiece) -> SurfaceMaterial:
+    """Return the material of a piece of a visual: its own precedes what is in the mesh file."""
     clear = 1.0 - visual.transparency
     material = visual.material
     if material is None:
-        return SurfaceLook(piece.color or GREY, texture=piece.texture, alpha=clear * piece.alpha)
+        return SurfaceMaterial(
+            piece.color or GREY, texture=piece.texture, alpha=clear * piece.alpha
+        )
     script, picture = _script_of(material)
     diffuse = material.diffuse or script.diffuse or material.ambient or script.ambient
     emissive = material.emissive or script.emissive
-    return SurfaceLook(
+    return SurfaceMaterial(
         GREY if diffuse is None else diffuse[:3],
         (0.0, 0.0, 0.0) if emissive is None else emissive[:3],
         material.texture or picture,

@@ -1,4 +1,4 @@
-"""Refuges on a map: places where a robot does not obstruct another one."""
+"""Waiting places on a map, where a robot does not obstruct another one."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from gazelle.navigation.planners.potential import NOT_REACHED, PotentialField
 _NEUTRAL: Final = 50.0
 _NEAR_WALLS: Final = 200.0
 _DECAY: Final = 4.0
-"""The price of a cell's length: 50, and up to 200 more at a wall, falling by e every 0.25 m."""
+"""Traversal cost of a cell: 50, and up to 200 more at a wall, falling by e every 0.25 m."""
 _MARGIN: Final = 0.1
 """Between robots that pass each other [m]."""
 _CLOSE: Final = 0.15
@@ -46,7 +46,7 @@ class RobotDisc:
         return self.circumscribed + other.circumscribed + _MARGIN
 
 
-class RefugeMap:
+class WaitingPlaceMap:
     """Paths and places on a map, by static obstacles only.
 
     Args:
@@ -81,14 +81,14 @@ class RefugeMap:
         start, end = self._cell(robot.x, robot.y), self._cell(goal[0], goal[1])
         if start is None or end is None:
             return np.zeros((0, 2))
-        prices = self._prices(robot)
-        if not self._field.spread(prices, start, end, _NEUTRAL):
+        traversal_costs = self._traversal_costs(robot)
+        if not self._field.spread(traversal_costs, start, end, _NEUTRAL):
             return np.zeros((0, 2))
         cells = self._field.way_down(end, start, False)[::-1]
         found: Floats = self._corner + (cells + 0.5) * self._side
         return found
 
-    def refuge(
+    def waiting_place(
         self,
         robot: RobotDisc,
         leader: RobotDisc,
@@ -111,12 +111,14 @@ class RefugeMap:
         start = self._cell(robot.x, robot.y)
         if start is None:
             return None
-        prices = self._prices(robot)
+        traversal_costs = self._traversal_costs(robot)
         for body in (leader, *bodies):
             # One that almost touches another can still go away from it.
             apart = math.dist((body.x, body.y), (robot.x, robot.y)) - 1.5 * self._side
-            prices[self._within(body, min(body.circumscribed + robot.inscribed, apart))] = 0.0
-        self._field.spread(prices, start, None, _NEUTRAL)
+            traversal_costs[
+                self._within(body, min(body.circumscribed + robot.inscribed, apart))
+            ] = 0.0
+        self._field.spread(traversal_costs, start, None, _NEUTRAL)
         costs = self._field.values
         good = (costs < NOT_REACHED) & (self._room >= robot.circumscribed)
         good &= self._away_from(path) >= robot.apart(leader)
@@ -128,18 +130,18 @@ class RefugeMap:
         x, y = float(self._x[column]), float(self._y[row])
         return RobotDisc(x, y, robot.inscribed, robot.circumscribed)
 
-    def _prices(self, robot: RobotDisc) -> Floats32:
+    def _traversal_costs(self, robot: RobotDisc) -> Floats32:
         """Return the cost of a cell's length for a robot, 0 where it is closed.
 
         Shape (rows, columns).
         """
         spare = self._room - robot.inscribed
-        prices = _NEUTRAL + _NEAR_WALLS * np.exp(-_DECAY * np.maximum(spare, 0.0))
-        prices[spare < 0.0] = 0.0
+        traversal_costs = _NEUTRAL + _NEAR_WALLS * np.exp(-_DECAY * np.maximum(spare, 0.0))
+        traversal_costs[spare < 0.0] = 0.0
         # Where it stands it can move, although a map of whole cells has walls beside it.
         about = self._within(robot, robot.circumscribed) & (self._room > 0.0)
-        prices[about & (spare < 0.0)] = _NEUTRAL + _NEAR_WALLS
-        return prices.astype(np.float32)
+        traversal_costs[about & (spare < 0.0)] = _NEUTRAL + _NEAR_WALLS
+        return traversal_costs.astype(np.float32)
 
     def _away_from(self, path: Floats) -> Floats:
         """Return the distance of each cell from a path [m], shape (rows, columns)."""

@@ -30,7 +30,7 @@ from gazelle.stage.stage_bodies import StageBodies
 
 
 @checked(SimulationError)
-class Senses(StageBodies):
+class StageDevices(StageBodies):
     """The devices on robots: what they see and feel, and what moves on them.
 
     Cameras, bumpers, fiducial and blob finders are made when they are used.

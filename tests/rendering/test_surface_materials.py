@@ -28,7 +28,7 @@ from gazelle.description import (
 )
 from gazelle.formats.mesh import load_mesh, load_mesh_parts
 from gazelle.formats.ogre import parse_scripts
-from gazelle.formats.wavefront_looks import parse_library
+from gazelle.formats.wavefront_materials import parse_library
 from gazelle.rendering import PinholeLens, Renderer
 from gazelle.sensors import look_at
 
@@ -215,7 +215,7 @@ def mesh_model(mesh, **visual):
 
 def test_an_obj_file_wears_its_materials(painted_obj):
     parts = load_mesh_parts(painted_obj)
-    assert sorted(part.look.texture for part in parts) == ["", "picture with spaces.png"]
+    assert sorted(part.material.texture for part in parts) == ["", "picture with spaces.png"]
     assert {part.name for part in parts} == {"board"}
     color = seen([mesh_model(painted_obj)]).color[0]
     # The camera looks along x: y is to the left.

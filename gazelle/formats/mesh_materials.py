@@ -14,8 +14,8 @@ Rgb = tuple[float, float, float]
 
 
 @dataclass(frozen=True, slots=True)
-class MeshLook:
-    """The look of a piece.
+class MeshMaterial:
+    """Material of a piece of a mesh.
 
     Attributes:
         color: Red, green and blue, 0 to 1; None if the file has none.
@@ -34,7 +34,7 @@ class MeshLook:
     alpha: float = 1.0
 
 
-PLAIN = MeshLook()
+PLAIN = MeshMaterial()
 
 
 def texture_file(mesh: Path, name: str) -> Path | None:
@@ -66,13 +66,13 @@ def texture_file(mesh: Path, name: str) -> Path | None:
     return None
 
 
-def look_of_trimesh(mesh: Any) -> MeshLook:
-    """Return the look of a trimesh: glTF's and PLY's colours, and pictures inside the file."""
+def material_of_trimesh(mesh: Any) -> MeshMaterial:
+    """Return the material of a trimesh: glTF's and PLY's colours, and pictures inside the file."""
     visual: Any = getattr(mesh, "visual", None)
     kind = getattr(visual, "kind", None)
     if kind in {"vertex", "face"}:  # one colour is shown: their mean
         red, green, blue, alpha = (visual.face_colors.mean(axis=0) / 255.0).tolist()
-        return MeshLook(color=(red, green, blue), alpha=alpha)
+        return MeshMaterial(color=(red, green, blue), alpha=alpha)
     material = getattr(visual, "material", None)
     if material is None:
         return PLAIN
@@ -86,7 +86,7 @@ def look_of_trimesh(mesh: Any) -> MeshLook:
     if getattr(material, "alphaMode", None) != "BLEND":
         alpha = 1.0  # glTF: alpha counts only for blended materials
     places = None if pixels is None else np.asarray(uv, np.float64)[np.asarray(mesh.faces)]
-    return MeshLook((red, green, blue), uv=places, pixels=pixels, alpha=alpha)
+    return MeshMaterial((red, green, blue), uv=places, pixels=pixels, alpha=alpha)
 
 
 def _factor(factor: Any, material: Any) -> tuple[float, float, float, float]:

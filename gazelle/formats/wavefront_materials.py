@@ -14,7 +14,7 @@ from typing import Protocol
 import numpy as np
 
 from gazelle.array_types import Floats, Ints32, Ints64
-from gazelle.formats.mesh_looks import PLAIN, MeshLook
+from gazelle.formats.mesh_materials import PLAIN, MeshMaterial
 from gazelle.formats.wavefront import corner_words, numbered_lines, used_only
 
 MAX_BYTES = 4 * 2**20
@@ -46,16 +46,16 @@ class _Painted:
 
 def painted(
     path: Path, pieces: Sequence[WavefrontPiece]
-) -> Iterator[tuple[str, Floats, Ints32, MeshLook]]:
+) -> Iterator[tuple[str, Floats, Ints32, MeshMaterial]]:
     """Yield the pieces of an OBJ file by their materials.
 
     Yields:
-        Name, vertices (n, 3), triangles that look alike (m, 3), and their look.
+        Name, vertices (n, 3), triangles of one material (m, 3), and that material.
     """
     objects, uv, libraries = _read(path)
-    looks: dict[str, MeshLook] = {}
+    materials: dict[str, MeshMaterial] = {}
     for library in libraries:
-        looks = _library(path, library) | looks
+        materials = _library(path, library) | materials
     for piece in pieces:
         assigned = objects.get(piece.name)
         if assigned is None or len(assigned.materials) != len(piece.faces):
@@ -65,9 +65,9 @@ def painted(
         corners = np.array(assigned.places, np.int64).reshape(-1, 3)
         for number, name in enumerate(names.tolist()):
             chosen = which.ravel() == number
-            look = looks.get(name, PLAIN)
-            look = replace(look, uv=_uv(corners[chosen], uv))
-            yield piece.name, *used_only(piece.vertices, piece.faces[chosen]), look
+            material = materials.get(name, PLAIN)
+            material = replace(material, uv=_uv(corners[chosen], uv))
+            yield piece.name, *used_only(piece.vertices, piece.faces[chosen]), material
 
 
 def _uv(corners: Ints64, uv: Floats) -> Floats | None:
@@ -79,7 +79,7 @@ def _uv(corners: Ints64, uv: Floats) -> Floats | None:
 
 
 def _read(path: Path) -> tuple[dict[str, _Painted], Floats, list[str]]:
-    """Read looks of each object's triangles, places in pictures, and material libraries."""
+    """Read materials of each object's triangles, places in pictures, and material libraries."""
     objects: dict[str, _Painted] = {}
     uv: list[tuple[float, float]] = []
     libraries: list[str] = []
@@ -114,7 +114,7 @@ def _place(word: str, count: int) -> int:
     return number if number > 0 else count + 1 + number
 
 
-def _library(mesh: Path, name: str) -> dict[str, MeshLook]:
+def _library(mesh: Path, name: str) -> dict[str, MeshMaterial]:
     """Return the materials of an MTL file beside the OBJ file; none if it is not there."""
     here = mesh.resolve().parent
     plain = name.replace("\\", "/")
@@ -129,9 +129,9 @@ def _library(mesh: Path, name: str) -> dict[str, MeshLook]:
     return parse_library(found.read_text("utf-8", errors="replace"))
 
 
-def parse_library(text: str) -> dict[str, MeshLook]:
-    """Parse the looks of an MTL file by name; unknown parts are skipped."""
-    looks: dict[str, MeshLook] = {}
+def parse_library(text: str) -> dict[str, MeshMaterial]:
+    """Parse the materials of an MTL file by name; unknown parts are skipped."""
+    materials: dict[str, MeshMaterial] = {}
     name: str | None = None
     for line in text.splitlines():
         words = line.partition("#")[0].split()
@@ -139,26 +139,26 @@ def parse_library(text: str) -> dict[str, MeshLook]:
             continue
         if words[0] == "newmtl":
             name = " ".join(words[1:])
-            looks[name] = PLAIN
+            materials[name] = PLAIN
         elif name is not None:
-            looks[name] = _refined(looks[name], words)
-    return looks
+            materials[name] = _refined(materials[name], words)
+    return materials
 
 
-def _refined(look: MeshLook, words: list[str]) -> MeshLook:
+def _refined(material: MeshMaterial, words: list[str]) -> MeshMaterial:
     try:
         if words[0] == "Kd":
             red, green, blue = (min(1.0, max(0.0, float(word))) for word in words[1:4])
-            return replace(look, color=(red, green, blue))
+            return replace(material, color=(red, green, blue))
         if words[0] == "d":
-            return replace(look, alpha=min(1.0, max(0.0, float(words[-1]))))
+            return replace(material, alpha=min(1.0, max(0.0, float(words[-1]))))
         if words[0] == "Tr":
-            return replace(look, alpha=1.0 - min(1.0, max(0.0, float(words[1]))))
+            return replace(material, alpha=1.0 - min(1.0, max(0.0, float(words[1]))))
     except (ValueError, IndexError):
-        return look
+        return material
     if words[0] == "map_Kd" and len(words) > 1:
-        return replace(look, texture=_file_of(words[1:]))
-    return look
+        return replace(material, texture=_file_of(words[1:]))
+    return material
 
 
 def _file_of(words: list[str]) -> str:
