@@ -34,7 +34,7 @@ def test_what_is_no_text_is_an_error_with_its_line(tmp_path, data):
     with pytest.raises(FormatError, match=r"a\.yaml:2: this is no text in UTF-8") as caught:
         read_text(file)
     assert caught.value.hint == "save it as UTF-8"
-    assert is_controllers(file)
+    assert not is_controllers(file)
     assert "UTF-8" in check_controllers(file, "fetch")[0].message
     with pytest.raises(FormatError, match="UTF-8"):
         load_parameters(None, file)

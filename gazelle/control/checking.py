@@ -52,13 +52,16 @@ class _Entry:
 
 
 def is_controllers(file: Path) -> bool:
-    """Return whether a file is one of controllers: YAML with a ``type`` such as ``package/Class``."""
+    """Return whether a file is one of controllers: YAML with a ``type`` such as ``package/Class``.
+
+    What is no YAML is none.
+    """
     if file.suffix.lower() not in (".yaml", ".yml") or not file.is_file():
         return False
     try:
         root = _root(file)
     except (yaml.YAMLError, OSError, Error):
-        return True  # it says itself what is wrong with it
+        return False
     return any(True for _ in _entries(root)) or any(True for _ in _gains(root))
 
 

@@ -12,7 +12,7 @@ from gazelle.errors import FormatError, FormatWarning, ResolveError, closest_of
 from gazelle.formats import sdf, srdf, urdf, xacro, xml
 from gazelle.formats.map_world import map_world
 from gazelle.formats.model_config import entry_file
-from gazelle.formats.occupancy import load_map
+from gazelle.formats.occupancy import read_map
 from gazelle.formats.reading import Reading
 from gazelle.formats.resolve import Resolver
 from gazelle.formats.world_formats import find_world_format
@@ -298,9 +298,9 @@ def read_path(file: Path, reading: Reading) -> World:
     Raises:
         FormatError: It cannot be read, or its content is invalid.
     """
-    if file.suffix.lower() in _MAP_SUFFIXES:
-        return map_world(load_map(file))
     with reading.inside(file):
+        if file.suffix.lower() in _MAP_SUFFIXES:
+            return map_world(read_map(file, reading))
         data = xml.read_bytes(file)
         own = find_world_format(data, file.suffix)
         if own is not None:

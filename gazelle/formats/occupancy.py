@@ -12,6 +12,7 @@ import os
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
@@ -78,12 +79,26 @@ def load_map(path: PathLike, *, paths: Sequence[PathLike] = ()) -> OccupancyMap:
         ResolveError: There is no such YAML file or picture.
     """
     file = existing_file(path)
-    reading = Reading(Resolver(paths, file=file), folder=file.parent)
+    reading = Reading(Resolver(paths, file=file))
+    found = read_map(file, reading)
+    reading.report(strict=False)
+    return found
+
+
+def read_map(file: Path, reading: Reading) -> OccupancyMap:
+    """Read a ``map_server`` YAML file and its picture; unknown keys are noted.
+
+    Raises:
+        FormatError: The YAML or the picture cannot be read; it names file and line.
+        ResolveError: There is no such picture.
+    """
     nodes = _read_nodes(xml.read_bytes(file), str(file), reading)
     settings = _read_settings(nodes)
     picture = reading.resolver.find(settings.image, file.parent)
     if picture is None or not picture.is_file():
-        looked = characters.curly_hint(settings.image) or reading.resolver.looked_in(settings.image)
+        looked = characters.curly_hint(settings.image) or reading.resolver.looked_in(
+            settings.image, file.parent
+        )
         raise nodes["image"].fail(
             f"the picture '{settings.image}' is not found", ResolveError, looked
         )
@@ -92,7 +107,6 @@ def load_map(path: PathLike, *, paths: Sequence[PathLike] = ()) -> OccupancyMap:
     except FormatError as error:
         text = f"'{settings.image}': {error.message}"
         raise nodes["image"].fail(text, hint=error.hint) from error
-    reading.report(strict=False)
     x, y, yaw = settings.origin
     return OccupancyMap(
         data=cells(pixels, settings, blue_first=picture.suffix.lower() == ".bmp"),

@@ -83,7 +83,7 @@ class Reading:
         """Return the file behind a URI; a miss is recorded when it is required."""
         path = self.resolver.find(uri, self.folder)
         if path is None and required and not any(miss.uri == uri for miss in self.misses):
-            self.misses.append(Miss(uri, node.source, self.resolver.looked_in(uri)))
+            self.misses.append(Miss(uri, node.source, self.resolver.looked_in(uri, self.folder)))
         return path
 
     def note(

@@ -18,6 +18,7 @@ from pathlib import Path
 from urllib.parse import unquote
 
 from gazelle.formats import packages
+from gazelle.formats.near_names import near_miss
 from gazelle_ros.base.bundled_packages import published
 from gazelle_ros.base.path_texts import can_be_path, expanded
 
@@ -34,6 +35,7 @@ NEIGHBOUR_LEVELS = 4
 
 _PACKAGED = ("*/models/", "*/models/*/")
 """Folders of bundled packages that hold models."""
+_GIVE = "give its folder as a path, or in GAZEBO_MODEL_PATH"
 _NETWORK = ("http://", "https://", "fuel://", "ftp://")
 
 
@@ -98,10 +100,16 @@ class Resolver:
                 return found
         return None
 
-    def looked_in(self, uri: str) -> str:
-        """Describe where ``find`` searches for such a URI, for a message."""
+    def looked_in(self, uri: str, base: Path | None = None) -> str:
+        """Return a close name, or where ``find`` searches for such a URI, for a message."""
         if uri.startswith(_NETWORK):
             return "network addresses are never fetched"
+        for path in self._candidates(uri.strip(), base):
+            if can_be_path(path) and path.exists():
+                return f"{path} lies outside of the folders that may be read; {_GIVE}"
+        close = near_miss(uri.strip(), base, self._folder, self._names)
+        if close is not None:
+            return close
         if uri.startswith("package://"):
             variable, folders = PACKAGE_VARIABLE, self._package_roots()
         elif uri.startswith("model://"):
@@ -111,6 +119,19 @@ class Resolver:
         shown = ", ".join(str(folder) for folder in folders[:6]) or "no folder"
         state = "" if self._environ.get(variable) else f"; {variable} is not set"
         return f"looked in {shown}{state}"
+
+    def _folder(self, name: str) -> Path | None:
+        return self.package(name) or self.model(name)
+
+    def _names(self) -> set[str]:
+        """Return the names of all packages and models that are known."""
+        names = {folder.name for folder in (self.assets / "models").iterdir()}
+        for root in self._given_roots():
+            names.update(self._crawl(root))
+        for root in self._around:
+            index = self._index(root)
+            names.update(index.models, index.packages)
+        return names
 
     def package(self, name: str) -> Path | None:
         """Return the folder of a ROS package, or None."""
@@ -328,12 +349,17 @@ def _plain_name(name: str) -> bool:
 
 
 def _ancestors(file: Path) -> list[Path]:
-    """Return the folders around a file, nearest first, short of a home or a top-level folder."""
+    """Return the folders around a file, nearest first, short of a home or a top-level folder.
+
+    They are counted from the package that the file is in, however deep it lies there.
+    """
     if not can_be_path(file):
         return []
     start = file.absolute()
     folders = [start] if start.is_dir() and start.name else []
-    for folder in list(start.parents)[:NEIGHBOUR_LEVELS]:
+    above = list(start.parents)
+    inside = next((i for i, each in enumerate(above) if (each / "package.xml").is_file()), 0)
+    for folder in above[: NEIGHBOUR_LEVELS + inside]:
         too_wide = len(folder.parts) <= 2 or folder == Path.home()
         if too_wide and folders:
             break

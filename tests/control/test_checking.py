@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from PIL import Image
 
 from gazelle.cli.main import main
 from gazelle.control.checking import check_controllers, is_controllers
@@ -117,3 +118,21 @@ def test_maps_and_other_files_are_no_controllers(tmp_path):
         (tmp_path / "map.yaml").write_text(text, encoding="utf-8")
         assert not is_controllers(tmp_path / "map.yaml")
     assert not is_controllers(tmp_path / "robot.urdf")
+
+
+@pytest.mark.parametrize(
+    ("more", "expected"),
+    [
+        ("ocupied_thresh: 0.5\n", "did you mean 'occupied_thresh'?"),
+        ("---\nimage: b.png\n", "m.yaml:7: this is no valid YAML"),
+        ("\torigin: [0, 0, 0]\n", "m.yaml:7: this is no valid YAML"),
+    ],
+)
+def test_the_command_lists_what_is_wrong_with_a_map(tmp_path, capsys, more, expected):
+    Image.new("L", (2, 2)).save(tmp_path / "a.png")
+    text = "image: a.png\nresolution: 1\norigin: [0, 0, 0]\nnegate: 0\n"
+    (tmp_path / "m.yaml").write_text(text + "occupied_thresh: 0.6\nfree_thresh: 0.2\n" + more)
+    main(["check", "--files-only", str(tmp_path / "m.yaml")])
+    written = capsys.readouterr()
+    assert expected in written.out
+    assert not written.err

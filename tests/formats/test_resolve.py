@@ -269,3 +269,48 @@ def test_a_file_that_includes_itself_is_an_error(tmp_path):
 
 def test_the_folder_of_a_user_there_is_not_is_no_file(tmp_path):
     assert Resolver().find("~no_such_user_here/map.png", tmp_path) is None
+
+
+def test_packages_beside_a_deeply_nested_one_are_found(tmp_path):
+    place = package(tmp_path / "ws" / "src" / "family" / "arms", "arm")
+    meshes = package(tmp_path / "ws" / "src" / "shared meshes", "meshes")
+    (meshes / "Größe 1.STL").write_bytes(b"")
+    file = place / "urdf" / "parts" / "arm.urdf"
+    file.parent.mkdir(parents=True)
+    resolver = Resolver(environ={}, file=file)
+    assert resolver.find("package://meshes/Größe 1.STL") == meshes / "Größe 1.STL"
+    assert resolver.find("model://meshes/Gr%C3%B6%C3%9Fe%201.STL") == meshes / "Größe 1.STL"
+
+
+@pytest.mark.parametrize(
+    ("uri", "hint"),
+    [
+        ("package://robo/Meshes/a.stl", "did you mean 'meshes/A.STL'?"),
+        ("package://robo/meshs/A.STL", "did you mean 'meshes'?"),
+        ("package://robo/meshes/wheel.dae", "there is no such file in "),
+        ("model://rbo/meshes/A.STL", "did you mean 'robo'?"),
+        ("rbo", "did you mean 'robo'?"),
+        ("robo/Meshes/A.STL", "did you mean 'robo/meshes/A.STL'?"),
+        ("file://{folder}/robo/meshes/a.STL", "meshes/A.STL'?"),
+        ("package:///rbo/meshes/A.STL", "write package://NAME/FILE"),
+        ("file://$(find robo)/meshes/A.STL", "only xacro and launch files expand $(...)"),
+        ("https://example.org/A.STL", "network addresses are never fetched"),
+        ("zzyzx.qqq", "looked beside the file"),
+    ],
+)
+def test_what_is_not_found_is_named_with_what_is_close(tmp_path, uri, hint):
+    place = package(tmp_path, "robo")
+    (place / "meshes").mkdir()
+    (place / "meshes" / "A.STL").write_bytes(b"")
+    resolver = Resolver(environ={}, file=tmp_path / "robot.urdf")
+    uri = uri.replace("{folder}", str(tmp_path))
+    assert resolver.find(uri, tmp_path) is None
+    assert hint in resolver.looked_in(uri, tmp_path)
+
+
+def test_a_file_that_may_not_be_read_is_said_to_be_there(tmp_path):
+    (tmp_path / "far" / "off").mkdir(parents=True)
+    (tmp_path / "far" / "off" / "a.stl").write_bytes(b"")
+    resolver = Resolver([tmp_path / "near"], environ={})
+    hint = resolver.looked_in(f"file://{tmp_path}/far/off/a.stl")
+    assert "lies outside of the folders that may be read" in hint

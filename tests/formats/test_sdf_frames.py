@@ -187,3 +187,16 @@ def test_a_chain_of_frames_is_the_product_of_its_poses(chain, random):
     for i, pose in enumerate(chain):
         product = product * pose
         assert link(m, f"l{i}").pose.is_close(product, position=1e-7, angle=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("attributes", "pose", "reason"),
+    [
+        ("rotation_format='quat_wxyz'", "0 0 0 1 0 0 0", "unknown rotation_format 'quat_wxyz'"),
+        ("rotation_format='rpy'", "0 0 0 1 0 0", "unknown rotation_format 'rpy'"),
+        ("rotation_format='quat_xyzw' degrees='true'", "0 0 0 0 0 0 1", "cannot be in degrees"),
+    ],
+)
+def test_other_rotation_formats_are_errors_as_in_libsdformat(attributes, pose, reason):
+    with pytest.raises(FormatError, match=reason):
+        model(f"<link name='a'><pose {attributes}>{pose}</pose></link>", version="1.9")
