@@ -12,4 +12,5 @@ cdef enum:
     LEAST = 4
     STEADY = 5
     ACTS = 6
-    WIDTH = 7
+    MERGEABLE = 7
+    WIDTH = 8

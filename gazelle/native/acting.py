@@ -5,5 +5,5 @@
 BETWEEN, IN_STEP, AHEAD, OF_JOINTS = 0, 1, 2, 3
 
 # Columns of the table that a ``SystemLoop`` shares with an engine: the address of a system, its rows in
-# each world, four that are the loop's own, and when it is updated.
-ADDRESS, ROWS, DIVISIBLE, LATE, LEAST, STEADY, ACTS, WIDTH = 0, 1, 2, 3, 4, 5, 6, 7
+# each world, four that are the loop's own, when it is updated, and one more of the loop.
+ADDRESS, ROWS, DIVISIBLE, LATE, LEAST, STEADY, ACTS, MERGEABLE, WIDTH = 0, 1, 2, 3, 4, 5, 6, 7, 8

@@ -8,10 +8,6 @@ cdef enum:
     APART = 16  # so many numbers apart, threads do not fight for a line of a cache
 
 
-cdef long long moment(long long count, double rate) noexcept nogil
-cdef long long next_due(long long time, double rate) noexcept nogil
-
-
 cdef class SystemLoop:
     cdef readonly list systems
     cdef readonly Py_ssize_t nworld
@@ -33,5 +29,12 @@ cdef class SystemLoop:
     cdef void _pass(self, Py_ssize_t row, long long until) noexcept nogil
     cdef long long _moment_of(self, Py_ssize_t index, long long time) noexcept nogil
     cdef void _begin(self, Py_ssize_t part) noexcept nogil
+    cdef long long _make_steps(
+        self, Py_ssize_t part, Py_ssize_t first, Py_ssize_t last, long long time, long long until
+    ) noexcept nogil
+    cdef long long _steps_alike(
+        self, Py_ssize_t part, Py_ssize_t index, long long time, long long until) noexcept nogil
     cdef bint _is_due(self, Py_ssize_t part, Py_ssize_t index, long long time) noexcept nogil
-    cdef void _update(self, Py_ssize_t index, Py_ssize_t first, Py_ssize_t last, long long time) noexcept nogil
+    cdef void _update(
+        self, Py_ssize_t index, Py_ssize_t first, Py_ssize_t last, long long time, long long count
+    ) noexcept nogil

@@ -16,12 +16,13 @@ from cython.cimports.gazelle.native.acting import (
     DIVISIBLE,
     LATE,
     LEAST,
+    MERGEABLE,
     ROWS,
     STEADY,
     WIDTH,
 )
+from cython.cimports.gazelle.native.due_times import next_due
 from cython.cimports.gazelle.native.system import System
-from cython.cimports.libc.math import floor, rint
 
 if not cython.compiled:
     BLOCKS_A_THREAD, APART = 4, 16  # in a compiled module, what loop.pxd says
@@ -40,27 +41,6 @@ class Pool(Protocol):
         """Call ``work(part)`` for each part, all at the same time."""
 
 
-@cython.cfunc
-@cython.nogil
-@cython.exceptval(check=False)
-def moment(count: cython.longlong, rate: cython.double) -> cython.longlong:
-    """Return the count-th due time of something with a rate [Hz], in ns."""
-    return cython.cast(cython.longlong, rint(cython.cast(cython.double, count * 1000000000) / rate))
-
-
-@cython.cfunc
-@cython.nogil
-@cython.exceptval(check=False)
-def next_due(time: cython.longlong, rate: cython.double) -> cython.longlong:
-    """Return the first due time of something with a rate [Hz] after a time [ns]."""
-    count: cython.longlong = cython.cast(cython.longlong, floor(time * rate / 1e9))
-    due: cython.longlong = moment(count, rate)
-    while due <= time:
-        count += 1
-        due = moment(count, rate)
-    return due
-
-
 @cython.cclass
 class SystemLoop:
     """Systems that are updated one after another in every step in which they are due.
@@ -70,8 +50,9 @@ class SystemLoop:
     system is shared out among the threads, which wait for each other after every update.
 
     Args:
-        systems: In the order in which they are updated. One that has an attribute ``steady`` which
-            is true does nothing new in a step until Python changes what it goes by.
+        systems: In the order in which they are updated. Where worlds are divided among threads, the
+            mergeable ones make all steps at once until a system with a rate is due; so they need
+            nothing of each other.
         nworld: Number of worlds.
         step: Simulated time of a step [ns].
         pool: Threads to share the work among; None: the calling one works alone.
@@ -102,12 +83,10 @@ class SystemLoop:
             raise TypeError("a loop is of objects of System")
         self.nworld, self.step, self.time, self._pool = nworld, step, time, pool
         size = 1 if pool is None or not cython.compiled else pool.size
-        rows = [(each.rows, each.divisible, each.late, each.least) for each in self.systems]
+        acts = acts or [BETWEEN] * len(self.systems)
         table = [
-            (id(each), *row, getattr(each, "steady", False), when)
-            for each, row, when in zip(
-                self.systems, rows, acts or [BETWEEN] * len(rows), strict=True
-            )
+            (id(e), e.rows, e.divisible, e.late, e.least, e.steady, when, e.mergeable)
+            for e, when in zip(self.systems, acts, strict=True)
         ]
         self._table = np.array(table, np.int64).reshape(-1, WIDTH)
         self._rates = np.array([each.rate for each in self.systems], np.float64)
@@ -204,7 +183,7 @@ class SystemLoop:
             acts: cython.longlong = self._table[index, ACTS]
             between: cython.bint = acts == BETWEEN or acts == AHEAD  # noqa: PLR1714  of C
             if between and self._table[index, LATE] == late and self._is_due(row, index, self.time):
-                self._update(index, 0, self.nworld * self._table[index, ROWS], self.time)
+                self._update(index, 0, self.nworld * self._table[index, ROWS], self.time, 1)
 
     @cython.cfunc
     @cython.nogil
@@ -238,11 +217,12 @@ class SystemLoop:
     @cython.exceptval(check=False)
     def _pass(self, row: cython.Py_ssize_t, until: cython.longlong) -> cython.void:
         """Advance the time and the due times of systems."""
+        if self.time >= until:
+            return
+        self.time += (until - self.time + self.step - 1) // self.step * self.step
         index: cython.Py_ssize_t
-        while self.time < until:
-            for index in range(self._table.shape[0]):
-                self._is_due(row, index, self._moment_of(index, self.time))
-            self.time += self.step
+        for index in range(self._table.shape[0]):
+            self._is_due(row, index, self._moment_of(index, self.time - self.step))
 
     def play_worlds(
         self, part: cython.Py_ssize_t, blocks: cython.Py_ssize_t, until: cython.longlong
@@ -267,7 +247,6 @@ class SystemLoop:
         """Run blocks of worlds through all steps, as long as there are any left."""
         time: cython.longlong
         block: cython.longlong
-        index: cython.Py_ssize_t
         self._begin(part)
         while True:
             block = self._next_block()
@@ -278,12 +257,51 @@ class SystemLoop:
             self._begin(part)
             time = self.time
             while time < until:
-                for index in range(self._table.shape[0]):
-                    when: cython.longlong = self._moment_of(index, time)
-                    if self._is_due(part, index, when):
-                        rows: cython.longlong = self._table[index, ROWS]
-                        self._update(index, first * rows, last * rows, when)
-                time += self.step
+                time += self.step * self._make_steps(part, first, last, time, until)
+
+    @cython.cfunc
+    @cython.nogil
+    @cython.exceptval(check=False)
+    def _make_steps(
+        self, part: cython.Py_ssize_t, first: cython.Py_ssize_t, last: cython.Py_ssize_t,
+        time: cython.longlong, until: cython.longlong,
+    ) -> cython.longlong:  # fmt: skip
+        """Update worlds for a step, or for as many as are merged; returns their number."""
+        count: cython.longlong = 0  # not known before the first system that merges steps
+        index: cython.Py_ssize_t
+        for index in range(self._table.shape[0]):
+            rows: cython.longlong = self._table[index, ROWS]
+            if self._table[index, MERGEABLE]:
+                if count == 0:
+                    count = self._steps_alike(part, index, time, until)
+                self._update(index, first * rows, last * rows, time, count)
+                continue
+            when: cython.longlong = self._moment_of(index, time + max(count - 1, 0) * self.step)
+            if self._is_due(part, index, when):
+                self._update(index, first * rows, last * rows, when, 1)
+        return max(count, 1)
+
+    @cython.cfunc
+    @cython.nogil
+    @cython.exceptval(check=False)
+    def _steps_alike(
+        self, part: cython.Py_ssize_t, index: cython.Py_ssize_t, time: cython.longlong,
+        until: cython.longlong,
+    ) -> cython.longlong:  # fmt: skip
+        """Return the steps that systems can merge from a time on, the first of them being ``index``.
+
+        Others before them are due again only after these steps, and others after them only in the last.
+        """
+        count: cython.longlong = (until - time + self.step - 1) // self.step
+        each: cython.Py_ssize_t
+        for each in range(self._table.shape[0]):
+            if self._rates[each] > 0.0 or not (
+                self._table[each, MERGEABLE] or self._table[each, STEADY]
+            ):
+                ahead: cython.longlong = self._due[part, each] - time + self.step - 1
+                steps: cython.longlong = max(ahead, 0) // self.step - self._table[each, LATE]
+                count = min(count, max(steps + (each > index), 1))
+        return count
 
     @cython.cfunc
     @cython.nogil
@@ -316,7 +334,7 @@ class SystemLoop:
                     first: cython.longlong = count * mine // parts
                     last: cython.longlong = count * (mine + 1) // parts
                     if mine >= 0:
-                        self._update(index, first * unit, last * unit, when)
+                        self._update(index, first * unit, last * unit, when, 1)
             time += self.step
 
     @cython.cfunc
@@ -372,10 +390,10 @@ class SystemLoop:
     @cython.exceptval(check=False)
     def _update(
         self, index: cython.Py_ssize_t, first: cython.Py_ssize_t, last: cython.Py_ssize_t,
-        time: cython.longlong,
+        time: cython.longlong, count: cython.longlong,
     ) -> cython.void:  # fmt: skip
         if cython.compiled:
             place: cython.p_void = cython.cast(cython.p_void, self._table[index, ADDRESS])
-            cython.cast(System, place).update(first, last, time)
+            cython.cast(System, place).update_steps(first, last, time, count)
         else:
-            self.systems[index].update(first, last, time)
+            self.systems[index].update_steps(first, last, time, count)

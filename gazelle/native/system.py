@@ -28,6 +28,8 @@ class System:
     Attributes:
         due: Time of the next update [ns]; 0 for at once.
         late: Whether it is updated after all that moves, for the end of the step.
+        steady: Whether it does nothing new in a step until a system with a rate, or Python, changes its inputs.
+        mergeable: Whether ``update_steps`` makes many steps at once where no system with a rate is due between.
         least: Fewer rows are not worth a thread.
         uses: Arrays of an engine that it reads or writes, such as ``motor_targets``. An engine that can
             show them in the middle of its steps updates it there; None: others may be needed, and it
@@ -54,6 +56,7 @@ class System:
             )
         self.rows, self.rate, self.divisible, self.due = rows, rate, divisible, due
         self.late, self.least = False, 1
+        self.steady = self.mergeable = False
         self.uses: Any = None
 
     def bring(self, first: int, last: int, time: int) -> None:
@@ -80,3 +83,24 @@ class System:
             last: The one after the last.
             time: At the beginning of the step, or at its end for those that are late [ns].
         """
+
+    @cython.cfunc
+    @cython.nogil
+    @cython.exceptval(check=False)
+    def update_steps(
+        self,
+        first: cython.Py_ssize_t,
+        last: cython.Py_ssize_t,
+        time: cython.longlong,
+        count: cython.Py_ssize_t,
+    ) -> cython.void:
+        """Update rows for many steps, with the same bits as ``update`` for one after another.
+
+        Args:
+            first: As for ``update``.
+            last: Likewise.
+            time: At the beginning of the first step [ns].
+            count: Number of steps.
+        """
+        for _ in range(count):
+            self.update(first, last, time)

@@ -7,7 +7,6 @@ cdef double RAMP_DEADBAND
 cdef class DiffDriveLaw(System):
     cdef double[::1] half, radius, acceleration
     cdef double[:, :, :] linear, angular, speeds, sent
-    cdef readonly bint steady
     cdef double[:, :] targets
     cdef long long[:, :] last_ns
     cdef Py_ssize_t[::1] columns, sides, start

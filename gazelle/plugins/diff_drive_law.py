@@ -72,9 +72,6 @@ class DiffDriveLaw(System):
         separation: Between the wheels [m], shape (n,).
         radius: Of the wheels [m], shape (n,).
         acceleration: Most change of a wheel's speed on the ground [m/s²]; 0 for no limit; (n,).
-
-    Attributes:
-        steady: Whether motors have the speeds that are commanded at once.
     """
 
     def __init__(
@@ -93,7 +90,7 @@ class DiffDriveLaw(System):
         self.half = np.asarray(separation, np.float64).reshape(count) / 2.0
         self.radius = np.array(radius, np.float64).reshape(count)
         self.acceleration = np.array(acceleration, np.float64).reshape(count)
-        self.steady = not np.any(np.asarray(acceleration) > 0.0)
+        self.steady = not np.any(np.asarray(acceleration) > 0.0)  # speeds are those commanded
         wheels = np.arange(2 * count)
         self.send_to(np.zeros((len(tables.speeds), 2 * count)), wheels, wheels)
 

@@ -2,7 +2,7 @@ cimport cython
 
 from gazelle.engines.planar.bodies cimport Bodies
 
-cdef double TOUCH
+cdef double TOUCH, ROOM_MEASURED
 
 cdef bint reaches(
     double x, double y, double x0, double y0, double x1, double y1, double radius) noexcept nogil
@@ -23,8 +23,10 @@ cdef bint static_meets(Bodies w, Py_ssize_t b, Py_ssize_t k, Py_ssize_t s) noexc
 @cython.locals(near=int, i=Py_ssize_t)
 cdef bint any_near(Bodies w, double x, double y, double radius) noexcept nogil
 @cython.locals(kind=int)
-cdef bint near_static(Bodies w, Py_ssize_t s, double x, double y, double radius) noexcept nogil
-@cython.locals(i=Py_ssize_t)
+cdef double distance_of(Bodies w, Py_ssize_t s, double x, double y) noexcept nogil
+@cython.locals(i=Py_ssize_t, room=double)
+cdef double room_at(
+    Bodies w, Py_ssize_t b, double radius, double x, double y, double wanted) noexcept nogil
 cdef bint has_room(Bodies w, Py_ssize_t b, double radius) noexcept nogil
 @cython.locals(i=Py_ssize_t)
 cdef bint statics_meet(Bodies w, Py_ssize_t b, Py_ssize_t k) noexcept nogil

@@ -33,6 +33,7 @@ from cython.cimports.gazelle.engines.planar.columns import (
     PIECE_HIGH,
     PIECE_LOW,
     RADIUS,
+    ROOM,
     ROOM_X,
     ROOM_Y,
     SIN,
@@ -51,9 +52,8 @@ from cython.cimports.libc.math import sqrt
 TOUCH = 1e-9  # how far shapes may sink into each other and still only touch [m]
 
 FEW = cython.declare(cython.Py_ssize_t, 16)  # statics up to which all are gone through at once
-ROOM = cython.declare(
-    cython.double, 0.5
-)  # radii of a body around it that may be remembered as free
+ROOM_MEASURED = 0.5  # radii of a body up to which room is measured
+INFINITE = cython.declare(cython.double, float("inf"))
 STEPS = cython.declare(cython.double, 4.0)  # for so many steps at least, else it is not worth it
 
 
@@ -160,29 +160,41 @@ def any_near(w: Bodies, x: float, y: float, radius: float) -> bool:
     return near > 0
 
 
-def near_static(w: Bodies, s: int, x: float, y: float, radius: float) -> bool:
-    """Return whether a disc, at any height, meets a static primitive."""
+def distance_of(w: Bodies, s: int, x: float, y: float) -> float:
+    """Return the distance of a point from a static primitive, at any height [m]; negative within a circle."""
     kind = cython.cast(cython.int, w.statics[s, KIND])
-    x0, y0, x1, y1 = w.statics[s, X0], w.statics[s, Y0], w.statics[s, X1], w.statics[s, Y1]
+    if (kind & GHOST) != 0:
+        return INFINITE
+    x0, y0 = w.statics[s, X0] - x, w.statics[s, Y0] - y
     if (kind & CIRCLE) != 0:
-        radius, x1, y1 = radius + x1, x0, y0
-    return (kind & GHOST) == 0 and reaches(x, y, x0, y0, x1, y1, radius)
+        return sqrt(x0 * x0 + y0 * y0) - w.statics[s, X1]
+    ex, ey = w.statics[s, X1] - x - x0, w.statics[s, Y1] - y - y0
+    square = max(ex * ex + ey * ey, 1e-300)
+    t = min(max(-(x0 * ex + y0 * ey) / square, 0.0), 1.0)
+    dx, dy = x0 + t * ex, y0 + t * ey
+    return sqrt(dx * dx + dy * dy)
 
 
-def has_room(w: Bodies, b: int, radius: float) -> bool:
-    """Return whether there is enough free space around a body's goal to meet nothing static.
+def room_at(w: Bodies, b: int, radius: float, x: float, y: float, wanted: float) -> float:
+    """Return how far at least a body's disc at a point is from all that is static [m].
 
-    A disc without statics, somewhat larger than the body, is remembered, and as long as the body is
-    within it nothing need be looked for. It is looked for where a body does not leave it at once.
+    Negative where the disc, which no height limits, meets something. The distance is remembered, as it
+    changes by no more than the way between two points. It is measured up to half a radius.
+
+    Args:
+        w: All bodies.
+        b: The body, counted through all worlds.
+        radius: Of its disc [m].
+        x: Of the point [m].
+        y: Likewise.
+        wanted: It is measured again where what is remembered does not say that it is so far [m].
     """
-    x, y, spare = w.goal[b, X], w.goal[b, Y], ROOM * radius
-    dx, dy = x - w.memory[b, ROOM_X], y - w.memory[b, ROOM_Y]
-    if dx * dx + dy * dy < spare * spare:
-        return True
-    dx, dy = STEPS * (x - w.rows[b, X]), STEPS * (y - w.rows[b, Y])
-    if not dx * dx + dy * dy < spare * spare:
-        return False
-    r = radius + spare + TOUCH
+    dx, dy, room = x - w.memory[b, ROOM_X], y - w.memory[b, ROOM_Y], w.memory[b, ROOM]
+    way = sqrt(dx * dx + dy * dy)
+    if room - way >= wanted or room + way < 0.0:
+        return room - way
+    room = ROOM_MEASURED * radius
+    r = radius + room
     left = place_in(x - r, w.near_grid[0], w.near_grid[2], w.near_grid[3])
     right = place_in(x + r, w.near_grid[0], w.near_grid[2], w.near_grid[3])
     low = place_in(y - r, w.near_grid[1], w.near_grid[2], w.near_grid[4])
@@ -190,10 +202,22 @@ def has_room(w: Bodies, b: int, radius: float) -> bool:
     for row in range(low, high + 1):
         base = row * cython.cast(cython.Py_ssize_t, w.near_grid[3])
         for i in range(w.near_start[base + left], w.near_start[base + right + 1]):
-            if near_static(w, w.near_items[i], x, y, r):
-                return False
-    w.memory[b, ROOM_X], w.memory[b, ROOM_Y] = x, y
-    return True
+            room = min(room, distance_of(w, w.near_items[i], x, y) - radius - TOUCH)
+    w.memory[b, ROOM_X], w.memory[b, ROOM_Y], w.memory[b, ROOM] = x, y, room
+    return room
+
+
+def has_room(w: Bodies, b: int, radius: float) -> bool:
+    """Return whether a body's disc at its goal is known to meet nothing static.
+
+    Room is looked for only where a body does not leave it at once.
+    """
+    x, y = w.goal[b, X], w.goal[b, Y]
+    dx, dy = STEPS * (x - w.rows[b, X]), STEPS * (y - w.rows[b, Y])
+    spare = ROOM_MEASURED * radius
+    if not dx * dx + dy * dy < spare * spare:
+        return False
+    return room_at(w, b, radius, x, y, 0.0) > 0.0
 
 
 def statics_meet(w: Bodies, b: int, k: int) -> bool:

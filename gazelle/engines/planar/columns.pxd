@@ -49,6 +49,7 @@ cdef enum:
     TURN_ACROSS = 4
     ROOM_X = 5
     ROOM_Y = 6
+    ROOM = 7
     MEMORY = 8
     PASSIVE = -1
     DIFFERENTIAL = 0

@@ -42,8 +42,8 @@ Z: Final = 5
 BODY: Final = 8
 
 # What is remembered of bodies because it is likely to hold in the next step too: what the sine and
-# the like of the last turn were, see ``drive_motion.turned``, and a place around which there is so
-# much room that nothing static is met nearby, see ``collision.statics_meet``.
+# the like of the last turn were, see ``drive_motion.turned``, and how far a body's disc at some place
+# is from all that is static [m], see ``collision.room_at``.
 TURN: Final = 0
 TURN_SIN: Final = 1
 TURN_COS: Final = 2
@@ -51,6 +51,7 @@ TURN_AHEAD: Final = 3
 TURN_ACROSS: Final = 4
 ROOM_X: Final = 5
 ROOM_Y: Final = 6
+ROOM: Final = 7
 MEMORY: Final = 8
 
 # Convex pieces, what bodies bump with: polygons counter-clockwise, or circles.

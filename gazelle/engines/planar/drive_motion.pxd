@@ -9,7 +9,13 @@ cdef double toward(
     Bodies w, double now, double target, Py_ssize_t k, Py_ssize_t axis, double dt) noexcept nogil
 cdef (double, double, double, double) turned(double angle) noexcept nogil
 cdef void go(Bodies w, Py_ssize_t b, double vx, double vy, double turn, double dt) noexcept nogil
-@cython.locals(b=Py_ssize_t, k=Py_ssize_t, axis=Py_ssize_t, longest=double, target=double)
+cdef (double, double) stride(
+    Bodies w, Py_ssize_t b, double vx, double vy, double dt) noexcept nogil
+@cython.locals(target=double)
+cdef double driven(
+    Bodies w, Py_ssize_t b, Py_ssize_t k, Py_ssize_t axis, double dt) noexcept nogil
+cdef (double, double, double) twist_of(Bodies w, Py_ssize_t b, Py_ssize_t k) noexcept nogil
+@cython.locals(b=Py_ssize_t, k=Py_ssize_t, axis=Py_ssize_t, longest=double)
 cdef double propose(Bodies w, Py_ssize_t first, Py_ssize_t last, double dt) noexcept nogil
 @cython.locals(target=double)
 cdef double fastest(Bodies w, Py_ssize_t b, Py_ssize_t k, Py_ssize_t axis) noexcept nogil

@@ -72,6 +72,15 @@ def turned(angle: float) -> tuple[float, float, float, float]:
     return angle * sine, 1.0 - q * versed, sine, angle * versed
 
 
+def stride(w: Bodies, b: int, vx: float, vy: float, dt: float) -> tuple[float, float]:
+    """Return how far a body gets in a step, ahead and to the left of where it begins [m]."""
+    forward, aside = vx * dt, vy * dt
+    if w.euler:
+        return forward, aside
+    ahead, across = w.memory[b, TURN_AHEAD], w.memory[b, TURN_ACROSS]
+    return ahead * forward - across * aside, across * forward + ahead * aside
+
+
 def go(w: Bodies, b: int, vx: float, vy: float, turn: float, dt: float) -> None:
     """Write to ``goal`` where a body gets with a velocity in its own frame, kept for a step.
 
@@ -84,10 +93,7 @@ def go(w: Bodies, b: int, vx: float, vy: float, turn: float, dt: float) -> None:
         w.memory[b, TURN], w.memory[b, TURN_SIN], w.memory[b, TURN_COS] = angle, sine, cosine
         w.memory[b, TURN_AHEAD], w.memory[b, TURN_ACROSS] = ahead, across
     sine, cosine = w.memory[b, TURN_SIN], w.memory[b, TURN_COS]
-    ahead, across = w.memory[b, TURN_AHEAD], w.memory[b, TURN_ACROSS]
-    forward, aside = vx * dt, vy * dt
-    if not w.euler:
-        forward, aside = ahead * forward - across * aside, across * forward + ahead * aside
+    forward, aside = stride(w, b, vx, vy, dt)
     c, s = w.rows[b, COS], w.rows[b, SIN]
     w.goal[b, X] = w.rows[b, X] + c * forward - s * aside
     w.goal[b, Y] = w.rows[b, Y] + s * forward + c * aside
@@ -98,6 +104,25 @@ def go(w: Bodies, b: int, vx: float, vy: float, turn: float, dt: float) -> None:
     c, s = c * cosine - s * sine, s * cosine + c * sine
     unit = 1.5 - 0.5 * (c * c + s * s)  # rounding errors would add up
     w.goal[b, YAW], w.goal[b, COS], w.goal[b, SIN] = yaw, c * unit, s * unit
+
+
+def driven(w: Bodies, b: int, k: int, axis: int, dt: float) -> float:
+    """Return the velocity along an axis that a body's drive has after a step."""
+    target = w.command[b, axis]
+    if w.drives[k, FREE] == 0.0:
+        if w.drives[k, DRIVE_KIND] != CAR:
+            target = bounded(w, target, k, axis)
+        target = toward(w, w.velocity[b, axis], target, k, axis, dt)
+    return target
+
+
+def twist_of(w: Bodies, b: int, k: int) -> tuple[float, float, float]:
+    """Return the velocity of a body in its own frame: ahead, to the left [m/s], turning [rad/s]."""
+    vx, turn = w.velocity[b, 0], w.velocity[b, 2]
+    if w.drives[k, DRIVE_KIND] == CAR:
+        vx, turn = vx * cos(turn), vx * sin(turn) / w.drives[k, WHEELBASE]
+        vx, turn = bounded(w, vx, k, 0), bounded(w, turn, k, 2)
+    return vx, w.velocity[b, 1], turn
 
 
 def propose(w: Bodies, first: int, last: int, dt: float) -> float:
@@ -115,18 +140,10 @@ def propose(w: Bodies, first: int, last: int, dt: float) -> float:
         if kind == PASSIVE:
             continue
         for axis in range(3):
-            target = w.command[b, axis]
-            if w.drives[k, FREE] == 0.0:
-                if kind != CAR:
-                    target = bounded(w, target, k, axis)
-                target = toward(w, w.velocity[b, axis], target, k, axis, dt)
-            w.velocity[b, axis] = target
-        vx, vy, turn = w.velocity[b, 0], w.velocity[b, 1], w.velocity[b, 2]
+            w.velocity[b, axis] = driven(w, b, k, axis, dt)
         if kind in (DIFFERENTIAL, CAR):
-            vy = w.velocity[b, 1] = 0.0
-        if kind == CAR:
-            vx, turn = vx * cos(turn), vx * sin(turn) / w.drives[k, WHEELBASE]
-            vx, turn = bounded(w, vx, k, 0), bounded(w, turn, k, 2)
+            w.velocity[b, 1] = 0.0
+        vx, vy, turn = twist_of(w, b, k)
         if vx == 0.0 and vy == 0.0 and turn == 0.0:
             continue
         go(w, b, vx, vy, turn, dt)

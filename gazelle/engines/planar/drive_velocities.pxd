@@ -9,5 +9,4 @@ cdef class DriveVelocities(System):
     @cython.locals(b=Py_ssize_t)
     cdef void update(self, Py_ssize_t first, Py_ssize_t last, long long time) noexcept nogil
 
-@cython.locals(k=Py_ssize_t, vx=double, turn=double)
 cdef void note_velocity(Bodies w, Py_ssize_t b, double[:, ::1] velocities) noexcept nogil

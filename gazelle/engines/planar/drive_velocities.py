@@ -7,9 +7,7 @@ from __future__ import annotations
 import cython
 import numpy as np
 from cython.cimports.gazelle.engines.planar.bodies import Bodies
-from cython.cimports.gazelle.engines.planar.columns import CAR, DRIVE_KIND, WHEELBASE
-from cython.cimports.gazelle.engines.planar.drive_motion import bounded
-from cython.cimports.gazelle.native.elementary import cos, sin
+from cython.cimports.gazelle.engines.planar.drive_motion import twist_of
 from cython.cimports.gazelle.native.system import System
 
 from gazelle.array_types import Floats
@@ -38,9 +36,5 @@ class DriveVelocities(System):
 
 def note_velocity(w: Bodies, b: int, velocities: Floats) -> None:
     """Compute the velocity that the drive of a body gives it."""
-    k = b % w.drives.shape[0]
-    vx, turn = w.velocity[b, 0], w.velocity[b, 2]
-    if w.drives[k, DRIVE_KIND] == CAR:
-        vx, turn = vx * cos(turn), vx * sin(turn) / w.drives[k, WHEELBASE]
-        vx, turn = bounded(w, vx, k, 0), bounded(w, turn, k, 2)
-    velocities[b, 0], velocities[b, 1], velocities[b, 2] = vx, w.velocity[b, 1], turn
+    vx, vy, turn = twist_of(w, b, b % w.drives.shape[0])
+    velocities[b, 0], velocities[b, 1], velocities[b, 2] = vx, vy, turn

@@ -16,7 +16,8 @@ from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.bodies import Bodies
 from gazelle.engines.planar.fleet_bodies import Body, Drive, drive_row, radius_of
 from gazelle.engines.planar.grid_cells import put_back, relink, relink_some
-from gazelle.engines.planar.moving import Moving, Planning, Screening, Settling
+from gazelle.engines.planar.merged_steps import Moving
+from gazelle.engines.planar.moving import Planning, Screening, Settling
 from gazelle.engines.planar.scene import scene_of
 from gazelle.engines.planar.shapes import PrimitiveTable, pieces_of, primitives_of
 from gazelle.errors import EngineError

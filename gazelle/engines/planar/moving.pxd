@@ -18,11 +18,6 @@ cdef void settle_world(Bodies w, Py_ssize_t world) noexcept nogil
 @cython.locals(b=Py_ssize_t, longest=double)
 cdef double reach_in(Bodies w, Py_ssize_t world) noexcept nogil
 
-cdef class Moving(System):
-    cdef Bodies bodies
-    @cython.locals(world=Py_ssize_t)
-    cdef void update(self, Py_ssize_t first, Py_ssize_t last, long long time) noexcept nogil
-
 cdef class Planning(System):
     cdef Bodies bodies
     @cython.locals(b=Py_ssize_t)

@@ -63,24 +63,6 @@ def advance_world(w: Bodies, world: int) -> None:
 
 
 @cython.cclass
-class Moving(System):
-    """A step of all bodies, world by world.
-
-    Args:
-        bodies: Moving bodies.
-    """
-
-    def __init__(self, bodies: Bodies) -> None:
-        System.__init__(self)
-        self.bodies = bodies
-
-    def update(self, first: int, last: int, time: int) -> None:  # noqa: ARG002  time plays no part
-        """Advance the worlds first to last by a step."""
-        for world in range(first, last):
-            advance_world(self.bodies, world)
-
-
-@cython.cclass
 class Planning(System):
     """The first part of a step of large worlds, which threads share: where bodies would go.
 

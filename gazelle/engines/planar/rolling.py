@@ -10,6 +10,9 @@ import cython
 from cython.cimports.gazelle.engines.planar.bodies import Bodies
 from cython.cimports.gazelle.native.system import System
 
+if not cython.compiled:
+    WIDE = 16  # in a compiled module, what rolling.pxd says
+
 
 @cython.cclass
 class Joints:
@@ -43,6 +46,7 @@ class Rolling(System):
     def __init__(self, bodies: Bodies, joints: Joints) -> None:
         System.__init__(self)
         self.bodies, self.joints = bodies, joints
+        self.steady = True
 
     def update(self, first: int, last: int, time: int) -> None:  # noqa: ARG002  time plays no part
         """Command what motors want in the worlds first to last."""
@@ -63,11 +67,19 @@ class Turning(System):
     def __init__(self, bodies: Bodies, joints: Joints) -> None:
         System.__init__(self)
         self.bodies, self.joints = bodies, joints
+        self.mergeable = True
 
-    def update(self, first: int, last: int, time: int) -> None:  # noqa: ARG002  time plays no part
+    def update(self, first: int, last: int, time: int) -> None:
         """Turn joints in the worlds first to last."""
-        for world in range(first, last):
-            turn(self.joints, world, self.bodies.dt)
+        self.update_steps(first, last, time, 1)
+
+    def update_steps(self, first: int, last: int, time: int, count: int) -> None:  # noqa: ARG002
+        """Turn joints in the worlds first to last for ``count`` steps."""
+        axes = self.joints.rates.shape[1]
+        start, end = first * axes, last * axes
+        while start < end:
+            turn(self.joints, start, min(WIDE, end - start), count, self.bodies.dt)
+            start += WIDE
 
 
 def drive_joints(own: Joints, world: int) -> None:
@@ -89,8 +101,21 @@ def drive_bases(own: Joints, w: Bodies, world: int) -> None:
             w.command[b, axis] = speed
 
 
-def turn(own: Joints, world: int, dt: float) -> None:
-    """Turn joints of a world for a step [s]."""
-    for j in range(own.rates.shape[1]):
-        angle = own.angles[world, j] + own.rates[world, j] * dt
-        own.angles[world, j] = min(max(angle, own.limits[0, j]), own.limits[1, j])
+def turn(own: Joints, start: int, number: int, count: int, dt: float) -> None:
+    """Turn some joints, counted through all worlds, for ``count`` steps of so many seconds."""
+    angles = cython.declare(cython.double[WIDE])
+    ways = cython.declare(cython.double[WIDE])
+    least = cython.declare(cython.double[WIDE])
+    most = cython.declare(cython.double[WIDE])
+    axes = own.rates.shape[1]
+    for i in range(WIDE):
+        joint = start + min(i, number - 1)
+        world, j = joint // axes, joint % axes
+        angles[i], ways[i] = own.angles[world, j], own.rates[world, j] * dt
+        least[i], most[i] = own.limits[0, j], own.limits[1, j]
+    for _ in range(count):
+        for i in range(WIDE):
+            angle = angles[i] + ways[i]
+            angles[i] = min(max(angle, least[i]), most[i])
+    for i in range(number):
+        own.angles[(start + i) // axes, (start + i) % axes] = angles[i]

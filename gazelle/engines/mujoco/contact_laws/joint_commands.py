@@ -20,8 +20,8 @@ from cython.cimports.gazelle.native.acting import (
     ROWS,
     WIDTH,
 )
+from cython.cimports.gazelle.native.due_times import next_due
 from cython.cimports.gazelle.native.joint_system import JointSystem, copy
-from cython.cimports.gazelle.native.loop import next_due
 from cython.cimports.gazelle.native.memory import floats, longs, word
 from cython.cimports.gazelle.native.system import System
 
