@@ -6,6 +6,7 @@ import os
 import queue
 import sys
 import threading
+import weakref
 from collections import deque
 from collections.abc import Callable
 from typing import Protocol
@@ -41,9 +42,9 @@ class EventTaskQueue:
     def __init__(self) -> None:
         self._tasks: deque[Task | None] = deque()
         self._semaphore = os.eventfd(0, os.EFD_CLOEXEC | os.EFD_SEMAPHORE)
-
-    def __del__(self) -> None:
-        os.close(self._semaphore)
+        weakref.finalize(
+            self, os.close, self._semaphore
+        ).atexit = False  # workers wait till the end
 
     def put(self, task: Task | None) -> None:
         """Add a task; see `TaskQueue`."""
