@@ -15,6 +15,7 @@ import pytest
 import gazelle
 from gazelle import native
 from gazelle.engines.mujoco.contact_laws.struct_layout import Offsets
+from gazelle.native import processor
 
 ROOT = Path(gazelle.__file__).parent
 LAWS = ROOT / "engines/mujoco/contact_laws"
@@ -52,6 +53,12 @@ def result(build, code):
         text=True,
     )
     return done.stdout
+
+
+@pytest.mark.skipif(sys.platform != "linux" or native.BUILD == "python", reason="asks Linux")
+def test_avx2_is_found_where_linux_sees_it():
+    flags = re.search(r"^flags\s*:(.*)$", Path("/proc/cpuinfo").read_text(), re.MULTILINE)
+    assert processor.has_avx2() == bool(flags and "avx2" in flags[1].split())
 
 
 @pytest.mark.long

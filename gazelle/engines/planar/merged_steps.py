@@ -43,8 +43,8 @@ from cython.cimports.libc.math import fabs, sqrt
 
 if not cython.compiled:  # in a compiled module, what merged_steps.pxd says
     WIDE, M_ALL = 8, 88
-    M_X, M_Y, M_YAW, M_COS, M_SIN, M_FORWARD, M_ASIDE, M_ANGLE = range(0, 64, WIDE)
-    M_TURN_COS, M_TURN_SIN, M_STEPS = range(64, M_ALL, WIDE)
+    M_X, M_Y, M_YAW, M_COS, M_SIN, M_FORWARD, M_ASIDE, M_ANGLE = 0, 8, 16, 24, 32, 40, 48, 56
+    M_TURN_COS, M_TURN_SIN, M_STEPS = 64, 72, 80
 
 MOST_TURN = cython.declare(
     cython.double, 1.0
