@@ -1,6 +1,10 @@
 cimport cython
 
 
+cdef enum:
+    WIDE = 16  # beams that are compared at once
+
+
 cdef double angle_of(double y, double x) noexcept nogil
 
 
@@ -28,11 +32,14 @@ cdef class Beams:
         self, double ax, double ay, double bx, double by, double i, double cx, double cy,
         double dx, double dy, double j) noexcept nogil
     @cython.locals(met=cython.bint)
-    cdef void draw_disc(self, double x, double y, double radius, double inverse) noexcept nogil
+    cdef void draw_disc(
+        self, Py_ssize_t lo, Py_ssize_t hi, double x, double y, double radius, double inverse
+    ) noexcept nogil
     cdef (Py_ssize_t, Py_ssize_t) between(self, double first, double span, int turn) noexcept nogil
     cdef bint hidden(self, Py_ssize_t lo, Py_ssize_t hi, double inverse) noexcept nogil
-    @cython.locals(nearer=cython.bint)
+    @cython.locals(k=Py_ssize_t, nearer=Py_ssize_t)
     cdef bint too_near(self) noexcept nogil
+    @cython.locals(k=Py_ssize_t, j=Py_ssize_t, whole=Py_ssize_t, nearest=double)
     cdef double farthest(self) noexcept nogil
     cdef void report(
         self, Py_ssize_t m, double missing, bint signed, double[:, ::1] ranges,

@@ -32,6 +32,8 @@ from gazelle.array_types import Floats
 INF = cython.declare(cython.double, float("inf"))
 PI = cython.declare(cython.double, 3.141592653589793)
 TURN = cython.declare(cython.double, 6.283185307179586)
+if not cython.compiled:
+    WIDE = 16  # in a compiled module, what beams.pxd says
 FEW = cython.declare(cython.int, 48)  # beams from which it pays to find out which ones are missed
 
 
@@ -151,10 +153,12 @@ class Beams:
             met = (c0 * c1 <= 0.0) & (v > best)
             self.best[k] = v if met else best
 
-    def draw_disc(self, x: float, y: float, radius: float, inverse: float) -> None:
-        """Draw a disc that all beams begin outside of, whatever its distance and name."""
+    def draw_disc(
+        self, lo: int, hi: int, x: float, y: float, radius: float, inverse: float
+    ) -> None:
+        """Draw a disc that beams lo to hi begin outside of, whatever its distance and name."""
         square = radius * radius
-        for k in range(self.count):
+        for k in range(lo, hi):
             dx, dy, best = self.dx[k], self.dy[k], self.best[k]
             along = dx * x + dy * y
             aside = dx * y - dy * x
@@ -189,18 +193,30 @@ class Beams:
 
     def too_near(self) -> bool:
         """Return whether a beam met something nearer than where beams begin."""
-        most = 0.0
+        nearer = 0  # counted, as sums of ints become vectors, and a maximum does not
         for k in range(self.count):
-            most = max(most, self.best[k])
-        nearer: bool = most > self.near
-        return nearer
+            nearer += self.best[k] > self.near
+        return nearer > 0
 
     def farthest(self) -> float:
         """Return the length of the longest beam [m]."""
-        least = INF
-        for k in range(self.count):
-            least = min(least, self.best[k])
-        far: float = 1.0 / least
+        least = cython.declare(cython.double[WIDE])
+        for j in range(WIDE):
+            least[j] = INF
+        whole = self.count - self.count % WIDE
+        k = 0
+        while k < whole:
+            for j in range(WIDE):
+                best = self.best[k + j]
+                least[j] = best if best < least[j] else least[j]
+            k += WIDE
+        nearest = INF
+        for j in range(WIDE):
+            nearest = min(nearest, least[j])
+        while k < self.count:
+            nearest = min(nearest, self.best[k])
+            k += 1
+        far: float = 1.0 / nearest
         return far
 
     def report(

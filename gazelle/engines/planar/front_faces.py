@@ -16,6 +16,7 @@ from cython.cimports.gazelle.engines.planar.columns import COS, FAMILY, RADIUS, 
 from cython.cimports.gazelle.engines.planar.scan_columns import (
     C_FIRST,
     C_INVERSE,
+    C_RADIUS,
     C_SPAN,
     C_X0,
     C_X1,
@@ -42,6 +43,7 @@ from numpy.typing import NDArray
 from gazelle.array_types import Floats
 
 TOUCHED = cython.declare(cython.double, 1e9)  # more than there are sides
+MARGIN = cython.declare(cython.double, 1e-6)  # beyond the reach, where rounding hides nothing [m]
 FEW = cython.declare(cython.int, 48)  # beams from which it pays to find out which ones are missed
 
 
@@ -50,7 +52,7 @@ class FrontFaces:
 
     Args:
         sides: Of statics, then of each body in its own frame: both ends [m], whether from both
-            sides, and their lowest and highest height [m], shape (n, 7), n at most ``ROOM``.
+            sides, and their lowest and highest height [m], shape (n, 7); with the discs at most ``ROOM``.
         statics: Number of those of statics.
         discs: Static discs: middle, radius, lowest and highest height [m], shape (m, 5).
         rounds: As ``discs``, of bodies.
@@ -120,6 +122,24 @@ class FrontFaces:
             n += self.table[F_INVERSE + k] != 0.0
         return n
 
+    def take_disc(self, x: float, y: float, radius: float, beams: Beams) -> bool:
+        """Draw a disc, or list it where there are many beams; False if the sensor is within."""
+        square, far = x * x + y * y, beams.reach + radius + MARGIN
+        outside = square - radius * radius
+        if outside <= 0.0:
+            return False
+        if square > far * far:
+            return True
+        if beams.count <= FEW:
+            beams.draw_disc(0, beams.count, x, y, radius, 1.0 / outside)
+            return True
+        i = self.listed
+        self.found.table[C_X0 + i], self.found.table[C_Y0 + i] = x, y
+        self.found.table[C_X1 + i], self.found.table[C_Y1 + i] = x, y
+        self.found.table[C_RADIUS + i], self.found.table[C_INVERSE + i] = radius, 1.0 / outside
+        self.listed += 1
+        return True
+
     def find_bodies(self, at: Viewpoint, beams: Beams) -> int:
         """Draw round bodies other than the owner's family, and list sides; -1 if not sure."""
         n = 0
@@ -143,14 +163,12 @@ class FrontFaces:
                     continue
                 ax, ay, radius = self.rounds[p, 0], self.rounds[p, 1], self.rounds[p, 2]
                 x0, y0 = x + cos * ax - sin * ay, y + sin * ax + cos * ay
-                outside = x0 * x0 + y0 * y0 - radius * radius
-                if outside <= 0.0:
+                if not self.take_disc(x0, y0, radius, beams):
                     return -1
-                beams.draw_disc(x0, y0, radius, 1.0 / outside)
         return n
 
     def draw(self, n: int, beams: Beams) -> None:
-        """Draw the first n sides listed."""
+        """Draw the first n sides listed, and the discs."""
         if beams.count <= FEW:
             for i in range(n // 2):
                 j, k = self.order[2 * i], self.order[2 * i + 1]
@@ -170,39 +188,33 @@ class FrontFaces:
                     self.table[F_INVERSE + k],
                 )
             return
+        discs = self.listed
         for i in range(n):
             k = self.order[i]
-            self.found.table[C_X0 + i], self.found.table[C_Y0 + i] = (
-                self.table[F_X0 + k],
-                self.table[F_Y0 + k],
-            )
-            self.found.table[C_X1 + i], self.found.table[C_Y1 + i] = (
-                self.table[F_X1 + k],
-                self.table[F_Y1 + k],
-            )
-            self.found.table[C_INVERSE + i] = self.table[F_INVERSE + k]
-        self.found.cover(n, beams)
-        for i in range(n):
-            k = self.order[i]
+            self.found.table[C_X0 + discs + i] = self.table[F_X0 + k]
+            self.found.table[C_Y0 + discs + i] = self.table[F_Y0 + k]
+            self.found.table[C_X1 + discs + i] = self.table[F_X1 + k]
+            self.found.table[C_Y1 + discs + i] = self.table[F_Y1 + k]
+            self.found.table[C_RADIUS + discs + i] = 0.0
+            self.found.table[C_INVERSE + discs + i] = self.table[F_INVERSE + k]
+        self.found.cover(discs + n, beams)
+        for i in range(discs + n):
+            x0, y0 = self.found.table[C_X0 + i], self.found.table[C_Y0 + i]
+            inverse = self.found.table[C_INVERSE + i]
             for turn in range(2):
                 lo, hi = beams.between(
                     self.found.table[C_FIRST + i], self.found.table[C_SPAN + i], -turn
                 )
-                if lo < hi:
-                    beams.draw_front(
-                        lo,
-                        hi,
-                        self.table[F_X0 + k],
-                        self.table[F_Y0 + k],
-                        self.table[F_X1 + k],
-                        self.table[F_Y1 + k],
-                        self.table[F_INVERSE + k],
-                    )
+                if lo < hi and i < discs:
+                    beams.draw_disc(lo, hi, x0, y0, self.found.table[C_RADIUS + i], inverse)
+                elif lo < hi:
+                    x1, y1 = self.found.table[C_X1 + i], self.found.table[C_Y1 + i]
+                    beams.draw_front(lo, hi, x0, y0, x1, y1, inverse)
 
     def look(self, at: Viewpoint, beams: Beams) -> bool:
         """Scan into ``beams.best`` from outside of everything; False if that is not sure."""
         beams.clear()
-        self.inside = 0.0
+        self.inside, self.listed = 0.0, 0
         n = self.find_bodies(at, beams)
         if n < 0:
             return False
@@ -212,11 +224,8 @@ class FrontFaces:
                 continue
             x0 = (-c * at.x - s * at.y) + c * self.discs[i, 0] + s * self.discs[i, 1]
             y0 = (s * at.x - c * at.y) - s * self.discs[i, 0] + c * self.discs[i, 1]
-            radius = self.discs[i, 2]
-            outside = x0 * x0 + y0 * y0 - radius * radius
-            if outside <= 0.0:
+            if not self.take_disc(x0, y0, self.discs[i, 2], beams):
                 return False
-            beams.draw_disc(x0, y0, radius, 1.0 / outside)
         x, y = -c * at.x - s * at.y, s * at.x - c * at.y
         n = self.find_faces(n, 0, self.statics, beams.reach, at.z, x, y, c, -s)
         if self.inside != 0.0:

@@ -20,16 +20,14 @@ def front_faces_of(fleet: Fleet) -> FrontFaces | None:
     statics = fleet.scene.table.rows
     looks = [_rows_of(fleet, body) for body in range(fleet.nbody)]
     flat = [_sides(rows) for rows in (statics, *looks)]
-    if fleet.scene.cells > 1 or sum(map(len, flat)) > ROOM:
+    discs, fixed = [_discs(rows) for rows in looks], _discs(statics)
+    if fleet.scene.cells > 1 or sum(map(len, (*flat, *discs, fixed))) > ROOM:
         return None
-    discs = [_discs(rows) for rows in looks]
     ends = np.cumsum([len(sides) for sides in flat])
     rounds = np.cumsum([0, *map(len, discs)])
     spans = np.stack((ends[:-1], ends[1:], rounds[:-1], rounds[1:]), axis=1).astype(np.int64)
     empty = np.zeros((0, 5))
-    return FrontFaces(
-        np.vstack(flat), len(flat[0]), _discs(statics), np.vstack([empty, *discs]), spans
-    )
+    return FrontFaces(np.vstack(flat), len(flat[0]), fixed, np.vstack([empty, *discs]), spans)
 
 
 def _rows_of(fleet: Fleet, body: int) -> Floats:
