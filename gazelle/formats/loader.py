@@ -12,6 +12,7 @@ from gazelle.errors import FormatError, FormatWarning, ResolveError, closest_of
 from gazelle.formats import sdf, srdf, urdf, xacro, xml
 from gazelle.formats.map_world import map_world
 from gazelle.formats.model_config import entry_file
+from gazelle.formats.near_names import beside
 from gazelle.formats.occupancy import read_map
 from gazelle.formats.reading import Reading
 from gazelle.formats.resolve import Resolver
@@ -203,7 +204,7 @@ def find_file(path: PathLike, reading: Reading, *, model: bool = False) -> Path:
         close = closest_of(text, names)
         hint = f"{looked}" if "://" in text or "/" in text else close or _BUNDLED_HINT
         if text.startswith(("/", "~", ".")):
-            hint = _beside(expanded(text))
+            hint = beside(expanded(text))
         raise ResolveError("there is no such file, URI or bundled name", file=text, hint=hint)
     reading.resolver.look_around(found)
     return entry_file(found)
@@ -211,15 +212,6 @@ def find_file(path: PathLike, reading: Reading, *, model: bool = False) -> Path:
 
 def _is_other_folder(path: Path) -> bool:
     return path.is_dir() and not (path / "model.config").exists()
-
-
-def _beside(file: Path) -> str:
-    """Describe the content of the folder in which a file was expected."""
-    folder = file.absolute().parent
-    if not folder.is_dir():
-        return f"there is no folder {folder}"
-    close = closest_of(file.name, (path.name for path in folder.iterdir()))
-    return close or f"there is nothing of that name or a similar one in {folder}"
 
 
 def _bundled(name: str, resolver: Resolver, *, model: bool) -> Path | None:

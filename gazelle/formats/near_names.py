@@ -35,15 +35,15 @@ def near_miss(
         folder = folder_of(name)
         if folder is None:
             return closest_of(name, names())
-        return _closest_below(folder, inner) or f"there is no such file in {folder}"
+        return closest_below(folder, inner) or f"there is no such file in {folder}"
     if scheme == "file" and separator:
-        return _closest_below(Path("/"), rest) if rest.startswith("/") else None
+        return closest_below(Path("/"), rest) if rest.startswith("/") else None
     if separator or base is None or uri.startswith(("/", "~")):
         return None
-    return _closest_below(base, uri) or (None if "/" in uri else closest_of(uri, names()))
+    return closest_below(base, uri) or (None if "/" in uri else closest_of(uri, names()))
 
 
-def _closest_below(folder: Path, inner: str) -> str | None:
+def closest_below(folder: Path, inner: str) -> str | None:
     """Return a hint with the path that is there below a folder, or the first part that is close."""
     found: list[str] = []
     for part in filter(None, unquote(inner).split("/")):
@@ -54,6 +54,15 @@ def _closest_below(folder: Path, inner: str) -> str | None:
         found.append(there[0])
         folder /= there[0]
     return f"did you mean '{'/'.join(found)}'?" if "/".join(found) != inner else None
+
+
+def beside(file: Path) -> str:
+    """Describe what is in the folder in which a file was expected, for a message."""
+    folder = file.absolute().parent
+    if not folder.is_dir():
+        return f"there is no folder {folder}"
+    close = closest_of(file.name, _names_in(folder))
+    return close or f"there is nothing of that name or a similar one in {folder}"
 
 
 def _alike(one: str, other: str) -> bool:

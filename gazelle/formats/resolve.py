@@ -107,7 +107,7 @@ class Resolver:
         for path in self._candidates(uri.strip(), base):
             if can_be_path(path) and path.exists():
                 return f"{path} lies outside of the folders that may be read; {_GIVE}"
-        close = near_miss(uri.strip(), base, self._folder, self._names)
+        close = self.near_miss(uri, base)
         if close is not None:
             return close
         if uri.startswith("package://"):
@@ -119,6 +119,10 @@ class Resolver:
         shown = ", ".join(str(folder) for folder in folders[:6]) or "no folder"
         state = "" if self._environ.get(variable) else f"; {variable} is not set"
         return f"looked in {shown}{state}"
+
+    def near_miss(self, uri: str, base: Path | None) -> str | None:
+        """Return a hint that names what is close to such a URI or path; None if nothing is."""
+        return near_miss(uri.strip(), base, self._folder, self._names)
 
     def _folder(self, name: str) -> Path | None:
         return self.package(name) or self.model(name)

@@ -13,6 +13,7 @@ from pathlib import Path
 from gazelle import assets
 from gazelle.bridges.serving import RosServer, refuse_twin
 from gazelle.errors import ResolveError, SimulationWarning
+from gazelle.formats.near_names import beside, closest_below
 from gazelle.simulation import Simulation
 from gazelle_ros import names
 from gazelle_ros.base.bundled_packages import published, published_hint
@@ -124,10 +125,17 @@ def find_world(name: str) -> str:
         if file.is_file():
             return str(file)
     if "/" in name and "://" not in name:
-        looked = f"looked in {', '.join(str(folder) for folder in folders)}"
-        hint = published_hint(name) or looked
+        hint = published_hint(name) or _hint_of(name, folders)
         raise ResolveError("there is no such world", file=name, hint=hint)
     return name
+
+
+def _hint_of(name: str, folders: Sequence[Path]) -> str:
+    """Return a hint for the path of a world that is nowhere."""
+    if Path(name).is_absolute():
+        return beside(Path(name))
+    close = next(filter(None, (closest_below(folder, name) for folder in folders)), None)
+    return close or f"looked in {', '.join(str(folder) for folder in folders)}"
 
 
 def _resource_path() -> list[Path]:

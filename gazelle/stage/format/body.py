@@ -155,7 +155,9 @@ def _read_bitmap(properties: Properties, context: Context) -> StageBitmap | None
     path = find_beside(uri, written.script, properties.reading, context.folder)
     if path is None or not path.is_file():
         raise written.fail(
-            f"there is no picture '{uri}'", looked(uri, properties.reading), ResolveError
+            f"there is no picture '{uri}'",
+            looked(uri, properties.reading, context.folder),
+            ResolveError,
         )
     cells = context.pictures.load(path, written)
     rows, columns = cells.shape

@@ -60,6 +60,7 @@ class Entity:
         own: The properties written in it, by name; of several the last.
         children: The entities written in it.
         total: Entities in it and below, those of macros and itself too.
+        macros: The macros that it could be made of, by name.
     """
 
     type: str
@@ -70,6 +71,7 @@ class Entity:
     own: dict[str, Property] = field(default_factory=dict)
     children: list[Entity] = field(default_factory=list)
     total: int = 1
+    macros: Mapping[str, Entity] = field(default_factory=dict)
 
     @property
     def properties(self) -> Mapping[str, Property]:

@@ -131,7 +131,7 @@ def _read_whole(entity: Entity, default_name: str, context: Context) -> StageMod
 def _unknown(entity: Entity) -> Exception:
     if entity.type in {"sensor", "block", "window"}:
         return entity.fail(f"'{entity.type}' cannot stand here, it is no model")
-    hint = _GONE.get(entity.type) or did_you_mean(entity.type, KINDS)
+    hint = _GONE.get(entity.type) or did_you_mean(entity.type, [*KINDS, *entity.macros])
     return entity.fail(f"'{entity.type}' is no type of model and no macro defined above", hint)
 
 

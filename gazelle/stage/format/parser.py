@@ -114,7 +114,7 @@ class _Parser:
     def _entity(self, name: str, word: Token) -> Entity:
         macro = self._macros.get(name)
         if macro is None:
-            return Entity(name, name, self._script, word.offset)
+            return Entity(name, name, self._script, word.offset, macros=self._macros)
         return Entity(macro.type, name, self._script, word.offset, macro, total=macro.total)
 
     def _check_count(self, entity: Entity, token: Token) -> None:
@@ -179,7 +179,7 @@ class _Parser:
             raise ResolveError(
                 f"there is no file '{uri}' to include",
                 source=self._script.source(word.offset, "include"),
-                hint=looked(uri, self._reading),
+                hint=looked(uri, self._reading, self._folder),
             )
         with self._reading.inside(path):
             script = script_of(str(path), xml.read_bytes(path), self._reading)
@@ -203,7 +203,10 @@ def find_beside(uri: str, script: Script, reading: Reading, folder: Path | None)
     return None
 
 
-def looked(uri: str, reading: Reading) -> str:
-    """Describe where ``find_beside`` searches, for a message."""
+def looked(uri: str, reading: Reading, folder: Path | None) -> str:
+    """Return a close name, or where ``find_beside`` searches, for a message."""
+    close = reading.resolver.near_miss(uri, folder)
+    if close is not None:
+        return close
     state = "" if os.environ.get(SEARCH_VARIABLE) else f"; {SEARCH_VARIABLE} is not set"
     return reading.resolver.looked_in(uri) + state

@@ -88,12 +88,20 @@ def test_worlds_are_found_below_gazebos_resource_path(world, monkeypatch):
     assert find_world("worlds/mine.world") == str(world)
 
 
-def test_bundled_worlds_are_found_and_others_named(monkeypatch):
+def test_bundled_worlds_are_found_and_others_named(world, monkeypatch):
     monkeypatch.delenv("GAZEBO_RESOURCE_PATH", raising=False)
     assert find_world("worlds/empty.world").endswith("worlds/empty.world")
     assert find_world("turtlebot3_world") == "turtlebot3_world"
     with pytest.raises(ResolveError, match=r"worlds/none\.world"):
         find_world("worlds/none.world")
+    for name, hint in {
+        f"{world.parent}/Mine.world": "did you mean 'mine.world'?",
+        f"{world.parent}/none/a.world": f"there is no folder {world.parent}/none",
+        "worlds/TurtleBot3_camera.world": "did you mean 'worlds/turtlebot3_camera.world'?",
+    }.items():
+        with pytest.raises(ResolveError) as caught:
+            find_world(name)
+        assert caught.value.hint == hint
 
 
 def test_a_flag_that_gzserver_does_not_have_is_refused(master, world):

@@ -206,6 +206,11 @@ def test_a_missing_include_is_an_error(tmp_path):
         read(tmp_path, '# one\ninclude "gone.inc"')
     assert (caught.value.line, caught.value.element) == (2, "include")
     assert "STAGEPATH is not set" in caught.value.hint
+    write(tmp_path, "", "sub/Gone.inc")
+    for name, close in {"sub/gone.inc": "sub/Gone.inc", "sbu/Gone.inc": "sub"}.items():
+        with pytest.raises(ResolveError) as caught:
+            read(tmp_path, f'include "{name}"')
+        assert caught.value.hint == f"did you mean '{close}'?"
 
 
 def test_stagepath_holds_includes_by_their_last_name(tmp_path, monkeypatch):

@@ -221,6 +221,7 @@ def test_the_body_stands_in_the_frame_of_its_origin(tmp_path):
     ("text", "said"),
     [
         ("modle ( )", "did you mean 'model'?"),
+        ("define rover position ( ) rver ( )", "did you mean 'rover'?"),
         ("map ( )", "write a model with a bitmap"),
         ("wifi ( )", "no wifi"),
         ("position ( sensor ( ) )", "a sensor must stand in a ranger"),
