@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from gazelle.training.records import EpisodeRecord
 
 _WAIT = 0.1  # until somebody may have opened the page [s]
+_GONE = 10.0  # without a page after the last episode, until it is taken for closed [s]
 _AT_END = 1.0  # for which the last moment of an episode stays on the page [s]
 
 
@@ -104,11 +105,14 @@ class _EpisodePace:
         self._due = max(self._due, now) + self._period
 
     def following(self, number: int, count: int) -> int | None:
-        """Return the number of the next episode; None where the page was closed after the last."""
+        """Return the number of the next episode; None where the page is closed after the last."""
         chosen: int | None = self._page.episodes.take_choice()
         if chosen is None and number + 1 < count:
             return number + 1
-        while chosen is None and self._page.watched:
+        seen = time.monotonic()
+        while chosen is None and time.monotonic() - seen < _GONE:
             time.sleep(_WAIT)
+            if self._page.watched:
+                seen = time.monotonic()
             chosen = self._page.episodes.take_choice()
         return chosen

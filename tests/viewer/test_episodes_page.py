@@ -2,6 +2,7 @@
 
 import threading
 from contextlib import suppress
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -69,9 +70,21 @@ def test_a_view_is_of_this_process_and_not_for_programs(other, capsys):
     assert "leave out --json, --workers and --ray" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("chosen", [None, 2])
+def test_a_reload_after_the_last_episode_ends_nothing(monkeypatch, chosen):
+    monkeypatch.setattr(episodes_beside, "_GONE", 0.3)
+    moments = iter([(False, None), (chosen is not None, chosen)])  # watched, and what is chosen
+
+    def take_choice():
+        page.watched, chosen = next(moments, (False, None))
+        return chosen
+
+    page = SimpleNamespace(episodes=SimpleNamespace(take_choice=take_choice))
+    assert episodes_beside._EpisodePace(page, 0.1).following(2, 3) == chosen
+
+
 @pytest.mark.long
 def test_a_policy_is_watched_as_it_fails(capsys, monkeypatch):
-
     found = failing(3, 1)
     said = []
 

@@ -1,11 +1,13 @@
 """Panels of the page of a graph in a real browser: what rqt's plugins do, by clicking."""
 
+import io
 import logging
 import re
 from contextlib import contextmanager
 from types import SimpleNamespace
 
 import pytest
+from PIL import Image
 
 pytest.importorskip("viser", reason="the extra 'web' is not installed")
 
@@ -174,6 +176,9 @@ def test_joints_have_sliders_where_a_node_takes_them(graph):
             until(lambda: graph.box("Topic").input_value() == "/left/arm/gui/sliders")
             assert (list(panel._sliders), panel._sliders["elbow"].value) == (["elbow"], 1.0)
             until(lambda: sliders.num_connections)
+            label, slider = (graph.page.get_by_text("elbow", exact=True).last.bounding_box(),
+                             graph.page.get_by_role("slider").last.bounding_box())  # fmt: skip
+            assert label["y"] + label["height"] <= slider["y"]  # above it, where long names fit
             graph.fill("elbow", "1.25")
             until(lambda: got)
             assert (list(got[-1].name), list(got[-1].position)) == (["elbow"], [1.25])
@@ -272,8 +277,19 @@ def test_images_are_viewed(graph):
                   step=24, data=row * 4)  # fmt: skip
         graph.choose("Topic", "/camera")
         graph.wait_text("8 x 4, rgb8")
-        graph.page.locator("img[src^='data:image'], img[src^='blob:']").first.wait_for()
-        assert panel._image.image[0, 0].tolist() == [250, 10, 20]
+        shown = graph.page.locator("img[src^='blob:']")
+        shown.first.wait_for()
+        assert panel.views[0].image.image[0, 0].tolist() == [250, 10, 20]
+        graph.click("Another topic")
+        packed = io.BytesIO()
+        Image.new("RGB", (6, 2), (10, 250, 20)).save(packed, "PNG")
+        graph.say("/packed", "sensor_msgs/CompressedImage", format="png", data=packed.getvalue())
+        panel.use(["/packed"])
+        graph.wait_text("6 x 2, png")
+        until(lambda: shown.count() == 2)
+        assert set(panel.settings["topics"]) == {"/camera", "", "/packed"}
+        graph.say("/packed", "sensor_msgs/CompressedImage", format="png", data=b"none")
+        graph.wait_text("cannot")
 
 
 def test_controllers_are_started_and_stopped(graph):

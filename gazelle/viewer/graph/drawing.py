@@ -11,7 +11,7 @@ from gazelle.array_types import Bytes, Floats
 from gazelle.rotations import rotate
 from gazelle.viewer.graph.styles import Color, DisplayStyle
 from gazelle.viewer.page.shapes import textured_mesh
-from gazelle.viewer.sources import picture_of
+from gazelle_ros.errors import RosError
 from gazelle_ros.msgs import geometry_msgs, nav_msgs, sensor_msgs
 
 if TYPE_CHECKING:
@@ -113,7 +113,16 @@ def points_of(message: sensor_msgs.msg.PointCloud2, plain: Color = _GREY) -> tup
     Args:
         message: The cloud.
         plain: Colour of a cloud without colours and intensities.
+
+    Raises:
+        RosError: It has fewer bytes than its points need.
     """
+    needed = (message.height - 1) * message.row_step + message.width * message.point_step
+    if len(message.data) < needed:
+        raise RosError(
+            f"a cloud of {message.width} x {message.height} points needs {needed} bytes, "
+            f"not {len(message.data)}"
+        )
     count = message.width * message.height
     raw = np.frombuffer(bytes(message.data), np.uint8)
     rows = np.lib.stride_tricks.as_strided(
@@ -217,23 +226,6 @@ def draw_poses(drawing: Drawing, message: geometry_msgs.msg.PoseArray) -> None:
     _axes(drawing, message.poses)
 
 
-def draw_image(
-    drawing: Drawing, message: sensor_msgs.msg.Image | sensor_msgs.msg.CompressedImage
-) -> None:
-    """Draw an Image or CompressedImage, on the panel."""
-    picture = picture_of(message)
-    every = max(1, picture.shape[1] // 320)
-    small = np.ascontiguousarray(picture[::every, ::every])
-    shown = drawing.part("image")
-    if shown is not None:
-        shown.image = small
-        return
-    drawing.put(
-        "image",
-        lambda _: drawing.page.gui.add_image(small, label=drawing.topic, format="jpeg"),
-    )
-
-
 def _points(drawing: Drawing, points: Floats, colors: Bytes) -> None:
     shown = drawing.part("points")
     if shown is not None and colors.ndim == 1:
@@ -303,8 +295,6 @@ KINDS: dict[str, Callable[[Drawing, Any], None]] = {
     "nav_msgs/OccupancyGrid": draw_map,
     "nav_msgs/Odometry": draw_pose,
     "nav_msgs/Path": draw_path,
-    "sensor_msgs/CompressedImage": draw_image,
-    "sensor_msgs/Image": draw_image,
     "sensor_msgs/LaserScan": draw_scan,
     "sensor_msgs/PointCloud2": draw_cloud,
 }

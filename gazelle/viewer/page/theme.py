@@ -7,7 +7,10 @@ from typing import Any
 
 from gazelle.viewer.page.server import PageServer
 
+# Names of joints are too long to stand before a slider.
 _ASK = """
+<style>.mantine-Flex-root:has(> div > div > .mantine-Slider-root) {flex-wrap: wrap}
+.mantine-Flex-root:has(> div > div > .mantine-Slider-root) > :first-child {width: 100% !important}</style>
 <img alt="" style="display:none" src="data:," onerror="if(!window.gazelleTheme){window.gazelleTheme=1;
  fetch('theme?dark='+(matchMedia('(prefers-color-scheme: dark)').matches?1:0)).catch(()=>0)}">
 """
