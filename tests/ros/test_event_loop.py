@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import gc
 import logging
 import os
 import socket
@@ -320,3 +321,15 @@ def test_slow_items_are_said(loop):
     assert queue.handle_all([0.05]) is False
     # One that has to wait for a processor is slow, too.
     assert any(queue.handle_all([0.0]) for _ in range(20))
+
+
+@pytest.mark.skipif(not hasattr(os, "eventfd"), reason="Linux has eventfd")
+@pytest.mark.filterwarnings("error::pytest.PytestUnraisableExceptionWarning")
+def test_a_queue_interrupted_while_it_is_made_goes_quietly(monkeypatch):
+    def interrupted(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(os, "eventfd", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        thread_pool.EventTaskQueue()
+    gc.collect()
