@@ -9,8 +9,11 @@ cdef double toward(
     Bodies w, double now, double target, Py_ssize_t k, Py_ssize_t axis, double dt) noexcept nogil
 cdef (double, double, double, double) turned(double angle) noexcept nogil
 cdef void go(Bodies w, Py_ssize_t b, double vx, double vy, double turn, double dt) noexcept nogil
+cdef void remember_turn(Bodies w, Py_ssize_t b, double angle) noexcept nogil
 cdef (double, double) stride(
     Bodies w, Py_ssize_t b, double vx, double vy, double dt) noexcept nogil
+@cython.locals(target=double)
+cdef double wanted(Bodies w, Py_ssize_t b, Py_ssize_t k, Py_ssize_t axis) noexcept nogil
 @cython.locals(target=double)
 cdef double driven(
     Bodies w, Py_ssize_t b, Py_ssize_t k, Py_ssize_t axis, double dt) noexcept nogil

@@ -72,6 +72,14 @@ def turned(angle: float) -> tuple[float, float, float, float]:
     return angle * sine, 1.0 - q * versed, sine, angle * versed
 
 
+def remember_turn(w: Bodies, b: int, angle: float) -> None:
+    """Compute the sine and the like of a body's turn in a step, unless the last was the same."""
+    if angle != w.memory[b, TURN]:
+        sine, cosine, ahead, across = turned(angle)
+        w.memory[b, TURN], w.memory[b, TURN_SIN], w.memory[b, TURN_COS] = angle, sine, cosine
+        w.memory[b, TURN_AHEAD], w.memory[b, TURN_ACROSS] = ahead, across
+
+
 def stride(w: Bodies, b: int, vx: float, vy: float, dt: float) -> tuple[float, float]:
     """Return how far a body gets in a step, ahead and to the left of where it begins [m]."""
     forward, aside = vx * dt, vy * dt
@@ -88,10 +96,7 @@ def go(w: Bodies, b: int, vx: float, vy: float, turn: float, dt: float) -> None:
     it goes along the arc, which is exact.
     """
     angle = turn * dt
-    if angle != w.memory[b, TURN]:
-        sine, cosine, ahead, across = turned(angle)
-        w.memory[b, TURN], w.memory[b, TURN_SIN], w.memory[b, TURN_COS] = angle, sine, cosine
-        w.memory[b, TURN_AHEAD], w.memory[b, TURN_ACROSS] = ahead, across
+    remember_turn(w, b, angle)
     sine, cosine = w.memory[b, TURN_SIN], w.memory[b, TURN_COS]
     forward, aside = stride(w, b, vx, vy, dt)
     c, s = w.rows[b, COS], w.rows[b, SIN]
@@ -106,12 +111,18 @@ def go(w: Bodies, b: int, vx: float, vy: float, turn: float, dt: float) -> None:
     w.goal[b, YAW], w.goal[b, COS], w.goal[b, SIN] = yaw, c * unit, s * unit
 
 
+def wanted(w: Bodies, b: int, k: int, axis: int) -> float:
+    """Return the velocity along an axis that a body's drive reaches in the end."""
+    target = w.command[b, axis]
+    if w.drives[k, FREE] == 0.0 and w.drives[k, DRIVE_KIND] != CAR:
+        target = bounded(w, target, k, axis)
+    return target
+
+
 def driven(w: Bodies, b: int, k: int, axis: int, dt: float) -> float:
     """Return the velocity along an axis that a body's drive has after a step."""
-    target = w.command[b, axis]
+    target = wanted(w, b, k, axis)
     if w.drives[k, FREE] == 0.0:
-        if w.drives[k, DRIVE_KIND] != CAR:
-            target = bounded(w, target, k, axis)
         target = toward(w, w.velocity[b, axis], target, k, axis, dt)
     return target
 

@@ -1,5 +1,6 @@
 # cython: annotation_typing=False, infer_types=True
 # mypy: disable-error-code="attr-defined, misc, no-any-return"
+# ruff: noqa: FBT001  # kernels take their arguments in order
 """Many steps at once of bodies that keep their velocities and meet nothing meanwhile.
 
 They have the same bits as steps one after another: the same operations, without looking for what is in
@@ -22,6 +23,7 @@ from cython.cimports.gazelle.engines.planar.columns import (
     PASSIVE,
     RADIUS,
     SIN,
+    STILL,
     TURN,
     TURN_COS,
     TURN_SIN,
@@ -33,8 +35,10 @@ from cython.cimports.gazelle.engines.planar.drive_motion import (
     PI,
     driven,
     looks_on_the_way,
+    remember_turn,
     stride,
     twist_of,
+    wanted,
 )
 from cython.cimports.gazelle.engines.planar.grid_cells import place_in, relink_one
 from cython.cimports.gazelle.engines.planar.moving import advance_world
@@ -85,11 +89,13 @@ def advance_worlds(w: Bodies, first: int, last: int, count: int) -> None:
     for world in range(first, last):
         left, pause = count, 1
         while left > 0:
-            for _ in range(min(pause, left)):
-                advance_world(w, world)
-            left -= min(pause, left)
-            steps = steps_alike(w, world, left) if left > 0 else 0
-            pause = 1 if steps > 0 else min(2 * pause, MOST_PAUSE)
+            steps = steps_alike(w, world, left, True)
+            if steps == 0:
+                for _ in range(min(pause, left)):
+                    advance_world(w, world)
+                left -= min(pause, left)
+                steps = steps_alike(w, world, left, False) if left > 0 else 0
+                pause = 1 if steps > 0 else min(2 * pause, MOST_PAUSE)
             left -= steps
             for b in range(world * w.nbody, (world + 1) * w.nbody if steps > 0 else 0):
                 if w.state[b] == MOVING:
@@ -118,14 +124,44 @@ def keeps_velocity(w: Bodies, b: int, k: int) -> bool:
     )
 
 
-def longest_move(w: Bodies, first: int, last: int) -> float:
-    """Return the longest way of a body in the last step, were none blocked [m]; negative if the next differs."""
+def expect_move(w: Bodies, b: int, k: int) -> bool:
+    """Give a body its velocity and state of the next step, if nothing blocks it.
+
+    Returns whether it keeps that velocity; else its velocity is as before along some axes, and as in the
+    next step along others, which changes nothing for that step.
+    """
+    sideways = w.drives[k, DRIVE_KIND] == OMNIDIRECTIONAL
+    for axis in range(3):
+        if axis == 1 and not sideways:
+            w.velocity[b, axis] = 0.0
+            continue
+        speed = driven(w, b, k, axis, w.dt)
+        if speed != wanted(w, b, k, axis):  # nor is what is no number
+            return False
+        w.velocity[b, axis] = speed
+    vx, vy, turn = twist_of(w, b, k)
+    w.state[b] = STILL if vx == 0.0 and vy == 0.0 and turn == 0.0 else MOVING
+    if w.state[b] == MOVING:
+        remember_turn(w, b, turn * w.dt)
+    return True
+
+
+def longest_move(w: Bodies, first: int, last: int, fresh: bool) -> float:
+    """Return the longest way of a body in a step, were none blocked [m]; negative if velocities change.
+
+    Args:
+        w: All bodies.
+        first: Of a world.
+        last: Before it.
+        fresh: Whether states are those of another time, and expected here.
+    """
     longest = 0.0
     for b in range(first, last):
         k = b % w.drives.shape[0]
         if w.drives[k, DRIVE_KIND] == PASSIVE:
+            w.state[b] = STILL
             continue
-        if not keeps_velocity(w, b, k):
+        if not (expect_move(w, b, k) if fresh else keeps_velocity(w, b, k)):
             return -1.0
         vx, vy, turn = twist_of(w, b, k)
         angle = w.memory[b, TURN]  # of a part of a step, if the last one had several
@@ -135,15 +171,16 @@ def longest_move(w: Bodies, first: int, last: int) -> float:
     return sqrt(longest) * w.dt
 
 
-def steps_alike(w: Bodies, world: int, left: int) -> int:
-    """Return a number of steps, at most those left, in which all bodies of a world do as in the last.
+def steps_alike(w: Bodies, world: int, left: int, fresh: bool) -> int:
+    """Return a number of steps, at most those left, in which all bodies of a world do the same.
 
-    Those that moved keep moving with the same velocity and come near nothing, the others stay.
+    Those that move keep moving with the same velocity and come near nothing, the others stay: as in the
+    last step, or if ``fresh`` as they would in the next if nothing blocked them.
     """
     begin, end = world * w.nbody, (world + 1) * w.nbody
     if w.sweep and looks_on_the_way(w, begin, end) > 1:
         return 0
-    longest = longest_move(w, begin, end)
+    longest = longest_move(w, begin, end, fresh)
     most = 0.0 if longest < 0.0 else 1.0 * left
     for b in range(begin, end):
         if w.state[b] == MOVING and most > 0.0:
@@ -160,9 +197,11 @@ def free_steps(w: Bodies, b: int, longest: float, most: float) -> float:
         longest: Way of any body of its world in a step at most, were none blocked [m].
         most: Number of steps.
     """
+    if not fabs(w.rows[b, YAW]) <= 2.0 * PI:  # it is wrapped by one turn at most
+        return 0.0
     radius = w.kinds[b % w.nbody, RADIUS]
-    wanted = min((most + 1.0) * longest, ENOUGH * ROOM_MEASURED * radius)
-    room = room_at(w, b, radius, w.rows[b, X], w.rows[b, Y], wanted)
+    spare = min((most + 1.0) * longest, ENOUGH * ROOM_MEASURED * radius)
+    room = room_at(w, b, radius, w.rows[b, X], w.rows[b, Y], spare)
     if not room > 2.0 * longest:
         return 0.0
     if longest > 0.0:
@@ -175,16 +214,16 @@ def free_steps(w: Bodies, b: int, longest: float, most: float) -> float:
     return min(most, gap / (2.0 * longest) - 1.0) if longest > 0.0 else most
 
 
-def gap_around(w: Bodies, a: int, wanted: float) -> float:
-    """Return the distance from a body's disc to the nearest other's [m], or ``wanted`` if it is farther."""
+def gap_around(w: Bodies, a: int, most: float) -> float:
+    """Return the distance from a body's disc to the nearest other's [m], or ``most`` if it is farther."""
     world, k = a // w.nbody, a % w.nbody
     x, y = w.rows[a, X], w.rows[a, Y]
-    r = w.kinds[k, RADIUS] + w.widest + wanted
+    r = w.kinds[k, RADIUS] + w.widest + most
     left = place_in(x - r, w.grid[0], w.grid[2], w.grid[3])
     right = place_in(x + r, w.grid[0], w.grid[2], w.grid[3])
     low = place_in(y - r, w.grid[1], w.grid[2], w.grid[4])
     high = place_in(y + r, w.grid[1], w.grid[2], w.grid[4])
-    gap = wanted
+    gap = most
     for row in range(low, high + 1):
         base = row * cython.cast(cython.Py_ssize_t, w.grid[3])
         for cell in range(base + left, base + right + 1):
@@ -249,5 +288,6 @@ def store(w: Bodies, table: Any, which: Any, number: int) -> None:
             table[M_YAW + i],
         )
         w.rows[b, COS], w.rows[b, SIN] = table[M_COS + i], table[M_SIN + i]
+        w.stalled[b] = 0
         if w.head.shape[1] > 1:
             relink_one(w, b)
