@@ -42,9 +42,8 @@ class EventTaskQueue:
     def __init__(self) -> None:
         self._tasks: deque[Task | None] = deque()
         self._semaphore = os.eventfd(0, os.EFD_CLOEXEC | os.EFD_SEMAPHORE)
-        weakref.finalize(
-            self, os.close, self._semaphore
-        ).atexit = False  # workers wait till the end
+        closing = weakref.finalize(self, os.close, self._semaphore)
+        closing.atexit = False  # workers wait until the end
 
     def put(self, task: Task | None) -> None:
         """Add a task; see `TaskQueue`."""
