@@ -125,7 +125,7 @@ def keeps_velocity(w: Bodies, b: int, k: int) -> bool:
 
 
 def expect_move(w: Bodies, b: int, k: int) -> bool:
-    """Give a body its velocity and state of the next step, if nothing blocks it.
+    """Set a body's velocity and state of the next step, if nothing blocks it.
 
     Returns whether it keeps that velocity; else its velocity is as before along some axes, and as in the
     next step along others, which changes nothing for that step.
