@@ -67,7 +67,7 @@ def find_frontiers(
     if not len(cells):
         return []
     reached = _beside(free & (steps < costs.size))[cells[:, 0], cells[:, 1]]
-    labels = _components(cells, costs.shape)
+    labels = connected_cells(cells, costs.shape)
     found = []
     for label in np.unique(labels[reached]):
         own = cells[labels == label]
@@ -89,7 +89,7 @@ def _beside(cells: Bools) -> Bools:
     return found
 
 
-def _components(cells: Indices, shape: tuple[int, ...]) -> Ints64:
+def connected_cells(cells: Indices, shape: tuple[int, ...]) -> Ints64:
     """Label the connected components of cells, over corners too: a number for each, shape (n,).
 
     Method: each takes the least number among its neighbours, and that one's, until none changes.

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from gazelle.bridges.navigation.band_topics import BandTopics
 from gazelle.bridges.navigation.costmap_topics import CostmapTopics
 from gazelle.bridges.navigation.diagnosis import StartDiagnosis
 from gazelle.bridges.navigation.frames import GraphFrames, missing_links
@@ -24,6 +25,7 @@ from gazelle.navigation.move_base import GoalOutcome, RobotState, navigation_sta
 from gazelle.navigation.move_base.state_machine import MoveStep
 from gazelle.navigation.planners.planar import composed
 from gazelle.navigation.planners.plugins import STOP, Velocity
+from gazelle.navigation.planners.teb import TebPlanner
 from gazelle_ros.actions import SimpleActionServer
 from gazelle_ros.builtin.arguments import run_node
 from gazelle_ros.builtin.parameters import private_values
@@ -65,7 +67,11 @@ class MoveBaseNode:
         pose, path = geometry_msgs.msg.PoseStamped, nav_msgs.msg.Path
         self._current = node.advertise("~current_goal", pose, queue_size=1)
         self._recovery = node.advertise("~recovery_status", move_base_msgs.msg.RecoveryStatus)
-        controller = self._law.controller.name
+        law = self._law.controller
+        controller = law.name
+        self._bands = (
+            BandTopics(node, law, self.frames, self._lock) if isinstance(law, TebPlanner) else None
+        )
         self._planner = PlannerTopics(node, self._law.planner, self._lock, self._in_whole)
         self._whole_plans = node.advertise(f"~{controller}/global_plan", path, queue_size=1)
         self._local_plans = node.advertise(f"~{controller}/local_plan", path, queue_size=1)
@@ -191,6 +197,8 @@ class MoveBaseNode:
         ahead = self._law.controller.local_plan
         if ahead is not None and self._local_plans.num_connections:
             self._local_plans.publish(path_message(ahead, local, now))
+        if self._bands is not None:
+            self._bands.publish(now)
         if step.recovery is not None:
             self._recovery.publish(self._status(step.recovery, feedback.base_position))
         if step.outcome is GoalOutcome.SUCCEEDED:

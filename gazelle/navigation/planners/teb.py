@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
@@ -18,13 +19,9 @@ from gazelle.navigation.following import Pose2
 from gazelle.navigation.planners.following_plan import PlanFollower
 from gazelle.navigation.planners.plugins import STOP, Values, Velocity
 from gazelle.navigation.planners.rollout import TrajectoryRollout
-from gazelle.navigation.planners.teb_band import (
-    first_band,
-    maneuvers,
-    moved_on,
-    optimised,
-)
-from gazelle.navigation.planners.teb_cost import Band, BandCost, ObstacleDistances
+from gazelle.navigation.planners.teb_cost import Band, BandCost
+from gazelle.navigation.planners.teb_obstacles import BandObstacle, ObstacleDistances
+from gazelle.navigation.planners.teb_search import BandSearch, BandTask
 from gazelle.navigation.planners.teb_settings import TebFootprint, TebSettings
 
 _NO_GRIDS: Final = np.zeros((4, 1, 1), np.int32)
@@ -39,16 +36,24 @@ class TebPlanner(PlanFollower):
     """Optimises poses and times to the goal, and commands the first velocity.
 
     Parameters: see `TebSettings`; those without effect here are `teb_settings.UNUSED`. Obstacles are the
-    lethal cells of the local costmap. One band is kept, on the side of obstacles where the global plan
-    is: no bands of other homotopy classes are tried.
+    lethal cells of the local costmap, and `obstacles`.
+
+    Attributes:
+        settings: Parameters.
+        footprint: Circles that stand for the robot.
+        obstacles: Other obstacles, standing and moving, in the costmap's frame.
+        vias: Points to pass in the costmap's frame, shape (n, 2), where the plan gives none.
+        search: Bands of the last cycle.
     """
 
     def __init__(self, name: str, costmap: Costmap, parameters: Values, period: float) -> None:
         super().__init__(name, costmap, parameters, period)
         self.settings = TebSettings.read(name, parameters)
         self.footprint = TebFootprint.read(parameters)
+        self.obstacles: Sequence[BandObstacle] = ()
+        self.vias: Floats = np.zeros((0, 2))
+        self.search = BandSearch(self.settings, period)
         self.prune = True
-        self._band: Band | None = None
         self._slow = 0
 
     def command(self, pose: Pose2, velocity: Velocity, to_local: Pose2) -> Velocity | None:
@@ -61,23 +66,29 @@ class TebPlanner(PlanFollower):
         if self._at(pose, goal):
             self.local_plan = np.array([pose])
             return STOP
-        plan, whole = self._within_lookahead(plan, goal)
+        nearest = int(np.hypot(*(plan[:, :2] - np.array(pose[:2])).T).argmin())
+        plan, whole = self._within_lookahead(plan[nearest:], goal)
+        moving = [each for each in self.obstacles if s.include_dynamic_obstacles and each.moving]
         cost = BandCost(
             s,
             self.footprint,
-            self._obstacles(),
-            (velocity[0], velocity[2]),
+            self._standing(),
+            velocity,
             stops=not (s.free_goal_vel and whole),
             vias=self._vias(plan),
             obstacle_weight=s.weight_obstacle,
+            moving=moving,
         )
-        band = self._best(pose, plan, cost, whole=whole)
-        self._band = band
+        task = BandTask(pose, plan, cost, self.costmap.inscribed, whole, self._feasible)
+        band = self.search.next(task, stalled=self._slow >= _PATIENCE)
+        if self._slow >= _PATIENCE:
+            self._slow = 0
         self.local_plan = None if band is None else band.poses.copy()
         if band is None:
             return None
         command = self._first_velocity(band)
-        self._slow = self._slow + 1 if abs(command[0]) < _SLOW else 0
+        slow = math.hypot(command[0], command[1]) < _SLOW
+        self._slow = self._slow + 1 if slow else 0
         return command
 
     def goal_reached(self, pose: Pose2, velocity: Velocity, to_local: Pose2) -> bool:
@@ -107,44 +118,24 @@ class TebPlanner(PlanFollower):
             cut[-1, 2] = math.atan2(cut[-1, 1] - cut[back, 1], cut[-1, 0] - cut[back, 0])
         return cut, whole
 
-    def _best(self, pose: Pose2, plan: Floats, cost: BandCost, *, whole: bool) -> Band | None:
-        """Return the cheapest band that hits nothing at its begin; None if there is none.
-
-        The band of the last cycle is kept, unless it has ended in a stand or the goal is another one.
-        """
-        goal = (float(plan[-1, 0]), float(plan[-1, 1]), float(plan[-1, 2]))
-        stalled = self._slow >= _PATIENCE
-        if self._band is not None and len(self._band.poses) > 2 and not stalled:
-            x, y, _ = self._band.poses[-1]
-            if math.hypot(goal[0] - x, goal[1] - y) < self.settings.force_reinit_new_goal_dist:
-                band = self._improved(moved_on(self._band, pose, goal), cost)
-                if self._feasible(band):
-                    return band
-        self._slow = 0
-        begun = [first_band(plan, pose, self.settings)]
-        if self.settings.min_turning_radius > 0.0 and (whole or stalled):
-            begun += maneuvers(pose, goal, self.settings)
-        bands = [self._improved(band, cost) for band in begun]
-        return min(filter(self._feasible, bands), key=cost.of, default=None)
-
-    def _improved(self, band: Band, cost: BandCost) -> Band:
-        return optimised(band, cost) if self.settings.optimization_activate else band
-
     def _vias(self, plan: Floats) -> Floats:
         """Return points of the plan that are ``global_plan_viapoint_sep`` apart."""
         apart = self.settings.global_plan_viapoint_sep
         if apart <= 0.0 or len(plan) < 2:
-            return np.zeros((0, 2))
+            return self.vias
         lengths = np.cumsum(np.hypot(*np.diff(plan[:, :2], axis=0).T))
         return plan[1:][np.diff(lengths // apart, prepend=0.0) > 0.0, :2]
 
-    def _obstacles(self) -> ObstacleDistances:
-        costmap = self.costmap
+    def _standing(self) -> ObstacleDistances:
+        costmap, s = self.costmap, self.settings
         lethal = costmap.cells == LETHAL
-        if not self.settings.include_costmap_obstacles or not lethal.any():
-            return ObstacleDistances(None, costmap.origin, costmap.resolution)
-        away = np.sqrt(squared_distances(lethal.astype(np.uint8))) * costmap.resolution
-        return ObstacleDistances(away, costmap.origin, costmap.resolution)
+        away = None
+        if s.include_costmap_obstacles and lethal.any():
+            away = np.sqrt(squared_distances(lethal.astype(np.uint8))) * costmap.resolution
+        shapes = [
+            each for each in self.obstacles if not (s.include_dynamic_obstacles and each.moving)
+        ]
+        return ObstacleDistances(away, costmap.origin, costmap.resolution, shapes)
 
     def _feasible(self, band: Band) -> bool:
         """Return whether the robot's outline hits nothing at the first poses."""
@@ -167,19 +158,36 @@ class TebPlanner(PlanFollower):
         """Return the velocity over the first intervals, within the limits."""
         s = self.settings
         count = min(max(s.control_look_ahead_poses, 1), len(band.times))
-        speeds, turns = band.velocities()
-        time = band.times[:count]
-        v = float(speeds[:count] @ time / time.sum())
-        w = float(turns[:count] @ time / time.sum())
-        bounded = min(max(v, -s.max_vel_x_backwards), s.max_vel_x)
+        share = band.times[:count] / band.times[:count].sum()
+        v, u, w = (float(each[:count] @ share) for each in band.velocities())
+        if s.max_vel_y <= 0.0:
+            u = 0.0
+        bounded, aside, turning = self._bounded(v, u, w)
         if s.min_turning_radius > 0.0:
             # A car that is slowed down stays on its arc, and cannot turn more than its wheels.
             w *= bounded / v if abs(v) > _STILL else 1.0
             most = min(abs(bounded) / s.min_turning_radius, s.max_vel_theta)
-        else:
-            most = s.max_vel_theta
-        w = min(max(w, -most), most)
+            turning = min(max(w, -most), most)
         if s.cmd_angle_instead_rotvel:
-            w = math.atan2(s.wheelbase * w, abs(bounded)) if abs(bounded) > _STILL else 0.0
-            w = math.copysign(1.0, bounded) * w
-        return bounded, 0.0, w
+            angle = (
+                math.atan2(s.wheelbase * turning, abs(bounded)) if abs(bounded) > _STILL else 0.0
+            )
+            turning = math.copysign(1.0, bounded) * angle
+        return bounded, aside, turning
+
+    def _bounded(self, ahead: float, aside: float, turning: float) -> Velocity:
+        """Return a velocity within the limits: each part, or all by the same factor."""
+        s = self.settings
+        most = s.max_vel_x if ahead > 0.0 else s.max_vel_x_backwards
+        parts = (ahead, aside, turning)
+        limits = (most, s.max_vel_y, s.max_vel_theta)
+        shares = [
+            min(1.0, limit / abs(part)) if part else 1.0
+            for part, limit in zip(parts, limits, strict=True)
+        ]
+        if s.use_proportional_saturation:
+            shares = [min(shares)] * 3
+        v, u, w = (part * share for part, share in zip(parts, shares, strict=True))
+        speed = math.hypot(v, u)
+        slower = s.fastest / speed if s.max_vel_y > 0.0 and speed > s.fastest else 1.0
+        return v * slower, u * slower, w

@@ -14,16 +14,16 @@ from typing import Final
 
 import numpy as np
 
-from gazelle.array_types import Floats
+from gazelle.array_types import Floats, Indices
 from gazelle.navigation.angles import wrapped, wrapped_all
 from gazelle.navigation.following import Pose2
 from gazelle.navigation.planners.planar import composed
 from gazelle.navigation.planners.teb_cost import Band, BandCost
+from gazelle.navigation.planners.teb_equations import STRIDE, BandEquations
 from gazelle.navigation.planners.teb_settings import TebSettings
 
 _STEP: Final = 1e-6
 _SHORTEST_S: Final = 0.01
-_STRIDE: Final = 3
 _ENOUGH: Final = 1e-3
 """Share of the cost that an iteration has to save, for another one."""
 
@@ -134,6 +134,7 @@ def optimised(band: Band, cost: BandCost) -> Band:
     for _ in range(s.no_outer_iterations):
         if s.teb_autosize:
             band = resized(band, s)
+        cost = replace(cost, arrivals=band.arrivals() if cost.moving else None)
         band = _improved(band, cost, s.no_inner_iterations)
         cost = replace(cost, obstacle_weight=cost.obstacle_weight * s.weight_adapt_factor)
     return band
@@ -144,12 +145,11 @@ def _improved(band: Band, cost: BandCost, iterations: int) -> Band:
     residuals = cost.residuals(band)
     for _ in range(iterations):
         before = float(residuals @ residuals)
-        jacobian = _jacobian(band, cost, residuals)
-        hessian, slope = jacobian.T @ jacobian, jacobian.T @ residuals
+        first = cost.first_poses(len(band.times))
+        derivatives = _derivatives(band, cost, residuals, first)
+        equations = BandEquations(derivatives, first, residuals, len(band.poses))
         for _ in range(4):
-            shifted = hessian + damping * np.eye(len(slope))
-            step: Floats = np.asarray(np.linalg.solve(shifted, -slope), np.float64)
-            tried = _stepped(band, step)
+            tried = _stepped(band, equations.step(damping))
             found = cost.residuals(tried)
             if found @ found < before:
                 band, residuals, damping = tried, found, max(0.2 * damping, 1e-6)
@@ -164,29 +164,28 @@ def _improved(band: Band, cost: BandCost, iterations: int) -> Band:
 
 def _stepped(band: Band, step: Floats) -> Band:
     """Return a band after a step of all inner poses and all times."""
-    count = 3 * (len(band.poses) - 2)
     poses = band.poses.copy()
-    poses[1:-1] += step[:count].reshape(-1, 3)
-    return Band(poses, np.maximum(band.times + step[count:], _SHORTEST_S))
+    poses[1:-1] += step[1:-1, :3]
+    return Band(poses, np.maximum(band.times + step[:-1, 3], _SHORTEST_S))
 
 
-def _jacobian(band: Band, cost: BandCost, residuals: Floats) -> Floats:
-    """Return derivatives by x, y and heading of inner poses, pose by pose, then by times."""
+def _derivatives(band: Band, cost: BandCost, residuals: Floats, first: Indices) -> Floats:
+    """Return derivatives by x, y, heading and time of the three poses of each residual."""
     count = len(band.times)
-    first = cost.first_poses(count)
     rows = np.arange(len(residuals))
-    by_pose = np.zeros((len(residuals), count + 1, 4))
-    for color in range(_STRIDE):
+    found = np.zeros((len(residuals), STRIDE, 4))
+    for color in range(STRIDE):
         # The one pose of this color that a residual may depend on.
-        which = first + (color - first) % _STRIDE
-        inside = which <= count
+        place = (color - first) % STRIDE
+        pose = first + place
         for variable in range(4):
             poses, times = band.poses.copy(), band.times.copy()
             if variable < 3:
-                poses[color::_STRIDE, variable] += _STEP
+                poses[color::STRIDE, variable] += _STEP
+                free = (pose > 0) & (pose < count)
             else:
-                times[color::_STRIDE] += _STEP
+                times[color::STRIDE] += _STEP
+                free = pose < count
             change = (cost.residuals(Band(poses, times)) - residuals) / _STEP
-            by_pose[rows[inside], which[inside], variable] = change[inside]
-    inner = by_pose[:, 1:-1, :3].reshape(len(residuals), -1)
-    return np.hstack((inner, by_pose[:, :-1, 3]))
+            found[rows, place, variable] = np.where(free, change, 0.0)
+    return found

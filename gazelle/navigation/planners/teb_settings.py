@@ -21,16 +21,9 @@ UNUSED: Final = frozenset(
         "transform_tolerance",
         "via_points_ordered",
         "exact_arc_length",
-        "publish_feedback",
         "min_resolution_collision_check_angular",
         "is_footprint_dynamic",
-        "max_vel_y",
-        "acc_lim_y",
-        "max_vel_trans",
-        "use_proportional_saturation",
         "complete_global_plan",
-        "dynamic_obstacle_inflation_dist",
-        "include_dynamic_obstacles",
         "costmap_obstacles_behind_robot_dist",
         "obstacle_poses_affected",
         "legacy_obstacle_association",
@@ -43,39 +36,19 @@ UNUSED: Final = frozenset(
         "obstacle_proximity_lower_bound",
         "obstacle_proximity_upper_bound",
         "optimization_verbose",
-        "weight_max_vel_y",
-        "weight_acc_lim_y",
-        "weight_dynamic_obstacle",
-        "weight_dynamic_obstacle_inflation",
         "weight_velocity_obstacle_ratio",
         "weight_prefer_rotdir",
-        "enable_homotopy_class_planning",
         "enable_multithreading",
-        "simple_exploration",
-        "max_number_classes",
         "max_number_plans_in_current_class",
-        "selection_obst_cost_scale",
-        "selection_prefer_initial_plan",
-        "selection_viapoint_cost_scale",
-        "selection_cost_hysteresis",
-        "selection_alternative_time_cost",
         "selection_dropping_probability",
-        "switching_blocking_period",
-        "roadmap_graph_no_samples",
         "roadmap_graph_samples",
-        "roadmap_graph_area_width",
-        "roadmap_graph_area_length_scale",
         "h_signature_prescaler",
         "h_signature_threshold",
-        "obstacle_keypoint_offset",
-        "obstacle_heading_threshold",
-        "viapoints_all_candidates",
         "visualize_hc_graph",
         "visualize_with_time_as_z_axis_scale",
         "delete_detours_backwards",
         "detours_orientation_tolerance",
         "length_start_orientation_vector",
-        "max_ratio_detours_duration_best_duration",
         "shrink_horizon_backup",
         "shrink_horizon_min_duration",
         "oscillation_recovery",
@@ -87,7 +60,6 @@ UNUSED: Final = frozenset(
         "divergence_detection_max_chi_squared",
         "feasibility_check_lookahead_distance",
         "prevent_look_ahead_poses_near_goal",
-        "force_reinit_new_goal_angular",
         "footprint_model",
     ]
 )
@@ -109,16 +81,21 @@ class TebSettings:
     max_global_plan_lookahead_dist: float = 1.0
     global_plan_prune_distance: float = 1.0
     force_reinit_new_goal_dist: float = 1.0
+    force_reinit_new_goal_angular: float = 0.5 * math.pi
     feasibility_check_no_poses: int = 5
     control_look_ahead_poses: int = 1
     max_vel_x: float = 0.4
     max_vel_x_backwards: float = 0.2
+    max_vel_y: float = 0.0
+    max_vel_trans: float = 0.0
     max_vel_theta: float = 0.3
     acc_lim_x: float = 0.5
+    acc_lim_y: float = 0.5
     acc_lim_theta: float = 0.5
     min_turning_radius: float = 0.0
     wheelbase: float = 1.0
     cmd_angle_instead_rotvel: bool = False
+    use_proportional_saturation: bool = False
     xy_goal_tolerance: float = 0.2
     yaw_goal_tolerance: float = 0.2
     free_goal_vel: bool = False
@@ -126,14 +103,19 @@ class TebSettings:
     theta_stopped_vel: float = 0.1
     min_obstacle_dist: float = 0.5
     inflation_dist: float = 0.6
+    publish_feedback: bool = False
     include_costmap_obstacles: bool = True
+    include_dynamic_obstacles: bool = True
+    dynamic_obstacle_inflation_dist: float = 0.6
     no_inner_iterations: int = 5
     no_outer_iterations: int = 4
     optimization_activate: bool = True
     penalty_epsilon: float = 0.1
     weight_max_vel_x: float = 2.0
+    weight_max_vel_y: float = 2.0
     weight_max_vel_theta: float = 1.0
     weight_acc_lim_x: float = 1.0
+    weight_acc_lim_y: float = 1.0
     weight_acc_lim_theta: float = 1.0
     weight_kinematics_nh: float = 1000.0
     weight_kinematics_forward_drive: float = 1.0
@@ -142,9 +124,27 @@ class TebSettings:
     weight_shortest_path: float = 0.0
     weight_obstacle: float = 50.0
     weight_inflation: float = 0.1
+    weight_dynamic_obstacle: float = 50.0
+    weight_dynamic_obstacle_inflation: float = 0.1
     weight_viapoint: float = 1.0
     weight_adapt_factor: float = 2.0
     obstacle_cost_exponent: float = 1.0
+    enable_homotopy_class_planning: bool = True
+    simple_exploration: bool = False
+    max_number_classes: int = 5
+    selection_cost_hysteresis: float = 1.0
+    selection_prefer_initial_plan: float = 0.95
+    selection_obst_cost_scale: float = 100.0
+    selection_viapoint_cost_scale: float = 1.0
+    selection_alternative_time_cost: bool = False
+    switching_blocking_period: float = 0.0
+    max_ratio_detours_duration_best_duration: float = 3.0
+    viapoints_all_candidates: bool = True
+    obstacle_keypoint_offset: float = 0.1
+    obstacle_heading_threshold: float = 0.45
+    roadmap_graph_no_samples: int = 15
+    roadmap_graph_area_width: float = 6.0
+    roadmap_graph_area_length_scale: float = 1.0
 
     def __post_init__(self) -> None:
         for name in ("dt_ref", "max_vel_x", "max_vel_theta", "acc_lim_x", "acc_lim_theta"):
@@ -154,8 +154,16 @@ class TebSettings:
             value = getattr(self, each.name)
             if each.name.startswith("weight_") and not 0.0 <= value < math.inf:
                 raise Error(f"'{each.name}' is 0 or more, not {value}")
+        for name in ("max_number_classes", "roadmap_graph_no_samples"):
+            if not 1 <= getattr(self, name) <= 100:
+                raise Error(f"'{name}' is 1 to 100, not {getattr(self, name)}")
         if not 3 <= self.min_samples <= self.max_samples:
             raise Error(f"'min_samples' is 3 to 'max_samples', not {self.min_samples}")
+
+    @property
+    def fastest(self) -> float:
+        """Greatest speed in any direction [m/s]; ``max_vel_trans`` if that is given."""
+        return self.max_vel_trans if self.max_vel_trans > 0.0 else self.max_vel_x
 
     @classmethod
     def read(cls, name: str, values: Mapping[str, Any]) -> TebSettings:
