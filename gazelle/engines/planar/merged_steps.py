@@ -233,7 +233,9 @@ def gap_around(w: Bodies, a: int, most: float) -> float:
                 if w.kinds[kb, FAMILY] != w.kinds[k, FAMILY]:
                     dx, dy = w.rows[b, X] - x, w.rows[b, Y] - y
                     apart = w.kinds[k, RADIUS] + w.kinds[kb, RADIUS]
-                    gap = min(gap, sqrt(dx * dx + dy * dy) - apart)
+                    square, far = dx * dx + dy * dy, apart + gap
+                    if square < far * far:
+                        gap = sqrt(square) - apart
                 b = w.follow[b]
     return gap
 

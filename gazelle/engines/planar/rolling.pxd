@@ -28,6 +28,6 @@ cdef class Turning(System):
 cdef void drive_joints(Joints own, Py_ssize_t world) noexcept nogil
 @cython.locals(i=Py_ssize_t, j=Py_ssize_t, axis=Py_ssize_t, b=Py_ssize_t, speed=double)
 cdef void drive_bases(Joints own, Bodies w, Py_ssize_t world) noexcept nogil
-@cython.locals(i=Py_ssize_t, joint=Py_ssize_t, world=Py_ssize_t, j=Py_ssize_t, _=Py_ssize_t, angle=double)
+@cython.locals(i=Py_ssize_t, world=Py_ssize_t, j=Py_ssize_t, _=Py_ssize_t, angle=double)
 cdef void turn(
     Joints own, Py_ssize_t start, Py_ssize_t number, Py_ssize_t count, double dt) noexcept nogil

@@ -108,14 +108,22 @@ def turn(own: Joints, start: int, number: int, count: int, dt: float) -> None:
     least = cython.declare(cython.double[WIDE])
     most = cython.declare(cython.double[WIDE])
     axes = own.rates.shape[1]
-    for i in range(WIDE):
-        joint = start + min(i, number - 1)
-        world, j = joint // axes, joint % axes
+    world, j = start // axes, start % axes
+    for i in range(number):
         angles[i], ways[i] = own.angles[world, j], own.rates[world, j] * dt
         least[i], most[i] = own.limits[0, j], own.limits[1, j]
+        j += 1
+        if j == axes:
+            world, j = world + 1, 0
+    for i in range(number, WIDE):
+        angles[i] = ways[i] = least[i] = most[i] = 0.0
     for _ in range(count):
         for i in range(WIDE):
             angle = angles[i] + ways[i]
             angles[i] = min(max(angle, least[i]), most[i])
+    world, j = start // axes, start % axes
     for i in range(number):
-        own.angles[(start + i) // axes, (start + i) % axes] = angles[i]
+        own.angles[world, j] = angles[i]
+        j += 1
+        if j == axes:
+            world, j = world + 1, 0
