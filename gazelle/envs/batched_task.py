@@ -35,7 +35,7 @@ SCENARIO = "scenario"
 """In the info of a first moment: see `BatchedTask.scenario`."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)  # not frozen: it is made several times as fast, once a control step
 class Transition:
     """Result of one control step, all arrays with a leading axis over worlds.
 
@@ -83,7 +83,7 @@ class BatchStep:
     final: FinalObservations | None
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class TaskOutcome:
     """A transition before the step limit is applied; see `Transition`."""
 
@@ -218,10 +218,11 @@ class BatchedTask(ABC):
         info = checked_info(outcome.info, nworld)
         self._note_goals(info)
         self.elapsed += 1
-        truncated = np.zeros(nworld, dtype=np.bool_)
-        if self.max_episode_steps is not None:
+        if self.max_episode_steps is None:
+            truncated = np.zeros(nworld, dtype=np.bool_)
+        else:
             truncated = self.elapsed >= self.max_episode_steps
-            info["is_timeout"] = truncated & ~terminated
+            info["is_timeout"] = truncated > terminated
         return Transition(observation, reward, terminated, truncated, info)
 
     def step(self, actions: ArrayLike) -> BatchStep:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -19,6 +20,8 @@ def action_array(actions: Any) -> NDArray[Any]:
     Raises:
         TaskError: They are no numbers, or in rows of different lengths.
     """
+    if type(actions) is np.ndarray and actions.dtype.kind in _NUMBERS:
+        return actions
     try:
         rows = np.asarray(actions)
     except ValueError:  # the rows are not alike
@@ -37,7 +40,8 @@ def checked_reward(values: Any, count: int) -> Floats:
     reward = _checked(
         "reward", values, (count,), f"one number a world, such as np.zeros({count})", _NUMBERS
     )
-    if np.count_nonzero(np.isfinite(reward)) < count:
+    # One pass finds that all are finite; squares of very large ones are not.
+    if not math.isfinite(reward.dot(reward)) and np.count_nonzero(np.isfinite(reward)) < count:
         where = int(np.flatnonzero(~np.isfinite(reward))[0])
         raise TaskError(f"the reward of world {where} is {reward[where]}; rewards must be finite")
     return reward if reward.dtype == np.float64 else reward.astype(np.float64)
@@ -70,24 +74,19 @@ def checked_info(info: dict[str, Any], count: int) -> dict[str, NDArray[Any]]:
     Raises:
         TaskError: A value is no number or array of numbers for each world.
     """
-    return {
-        name: values
-        if isinstance(values, np.ndarray)
-        and values.shape[:1] == (count,)
-        and values.dtype.kind in _NUMBERS
-        else _checked(
-            f"info['{name}']",
-            values,
-            (count, ...),
-            f"a row a world; for one value in all of them np.full({count}, value)",
-            _NUMBERS,
-        )
-        for name, values in info.items()
-    }
+    checked = dict(info)
+    for name, values in info.items():
+        known = type(values) is np.ndarray and values.ndim and len(values) == count
+        if not known or values.dtype.kind not in _NUMBERS:
+            hint = f"a row a world; for one value in all of them np.full({count}, value)"
+            checked[name] = _checked(f"info['{name}']", values, (count, ...), hint, _NUMBERS)
+    return checked
 
 
 def _checked(name: str, values: Any, shape: tuple[Any, ...], hint: str, kinds: str) -> NDArray[Any]:
     """Return values as an array of a shape, in which ``...`` stands for any more axes."""
+    if type(values) is np.ndarray and values.shape == shape and values.dtype.kind in kinds:
+        return values
     try:
         rows = np.asarray(values)
     except ValueError:

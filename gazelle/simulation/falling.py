@@ -10,6 +10,7 @@ import numpy as np
 from gazelle.array_types import Floats
 from gazelle.description import Model, World
 from gazelle.engines import Engine, RangeRays
+from gazelle.engines.state import LinkRows
 from gazelle.engines.world_rays import cast_in_world
 from gazelle.errors import SimulationWarning, describe
 
@@ -38,7 +39,7 @@ class FallWatch:
         self._warned: set[str] = set()
         self._world: World | None = None
         self._watched: list[Model] = []
-        self._links: tuple[str, ...] = ()
+        self._links: LinkRows | None = None
         self._lowest: Floats = np.zeros(0)
 
     def look(self, now_ns: int) -> None:
@@ -49,9 +50,9 @@ class FallWatch:
         self._period = period
         if self._world is not self._engine.world:
             self._watch(self._engine.world)
-        if not self._watched:
+        if self._links is None:
             return
-        heights = self._engine.links[self._links].placement().position[:, :, 2]
+        heights = self._links.placement().position[:, :, 2]
         if not (heights < self._lowest).any():
             return
         worlds = heights.argmin(axis=0)
@@ -72,7 +73,8 @@ class FallWatch:
             down = RangeRays(_first_link(self._watched[0]), np.zeros((1, 3)), _DOWN[None])
             if self._engine.range_kind(down) is None:  # nothing falls in the plane
                 self._watched = []
-        self._links = tuple(_first_link(model) for model in self._watched)
+        links = tuple(_first_link(model) for model in self._watched)
+        self._links = self._engine.links[links] if links else None
         starts = [(model.pose * model.links[0].pose).z for model in self._watched]
         self._lowest = np.array(starts) - _DEPTH
 

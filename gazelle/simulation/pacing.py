@@ -16,21 +16,18 @@ SLOWEST = 1e-6
 """Least real-time factor: a step of a millisecond takes a quarter of an hour."""
 
 
-def run_paced(advance: Callable[[int], None], count: int, step: float, rate: float | None) -> None:
+def run_paced(advance: Callable[[int], None], count: int, step: float, rate: float) -> None:
     """Advance by steps, at ``rate`` simulated seconds a wall second at most.
 
     Args:
         advance: Makes steps.
         count: Total number.
         step: Of simulated time [s].
-        rate: Real-time factor to keep to; None means as fast as possible.
+        rate: Real-time factor to keep to.
 
     Raises:
         SimulationError: No such pace can be kept to.
     """
-    if rate is None:
-        advance(count)
-        return
     if not SLOWEST <= number("a real-time factor", rate) < math.inf:
         raise SimulationError(
             f"a real-time factor must be finite and at least {SLOWEST:g}, not {rate!r}",

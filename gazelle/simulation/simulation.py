@@ -187,12 +187,19 @@ class Simulation(Closeable):
         """
         if self.paused:
             raise SimulationError("the simulation is paused", hint="call unpause(), or step()")
+        count = self.clock.steps_in(inputs.duration(seconds))
+        if rate is None:
+            self.loop.advance(count, self._is_paused)
+            return
         pacing.run_paced(
-            lambda count: self.loop.advance(count, lambda: self.paused),
-            self.clock.steps_in(inputs.duration(seconds)),
+            lambda some: self.loop.advance(some, self._is_paused),
+            count,
             self.clock.step_ns / NANOSECONDS,
             rate,
         )
+
+    def _is_paused(self) -> bool:
+        return self.paused
 
     def subscribe(self, listener: Callable[[], None]) -> Callable[[], None]:
         """Call a function after every step, between two steps; returns what ends it."""

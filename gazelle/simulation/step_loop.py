@@ -144,7 +144,8 @@ class StepLoop:
         plan = self._plan
         if self._simulation.lock.closed:
             raise SimulationError(CLOSED)
-        if applied.any:
+        pushed = applied.any
+        if pushed:
             applied.update(clock.now_ns)
         if self.followers or self._listeners:
             most = 1
@@ -155,7 +156,7 @@ class StepLoop:
             steps = min(steps, clock.steps_to((clock.now_ns // NANOSECONDS + 1) * NANOSECONDS))
             if self.in_step.kernels:
                 steps = min(steps, self._steps_in_step())
-        if applied.any:
+        if pushed:
             steps = min(steps, applied.steps_until(clock) or steps)
         try:
             if steps < self._most:
@@ -172,7 +173,8 @@ class StepLoop:
 
     def _update_plugins(self) -> Sequence[Scheduled]:
         """Run what is due from Python; returns what is not run by the engine."""
-        simulation, updated = self._simulation, set[int]()
+        simulation = self._simulation
+        updated: set[int] = set()
         while True:
             plan = self._renew()
             if plan.settled is not None:
@@ -214,12 +216,14 @@ class StepLoop:
 
     def _look_back(self) -> None:
         """Finish steps: move followers, measure, call listeners, check for falling models."""
+        now_ns = self._simulation.clock.now_ns
         for follower in tuple(self.followers):
             follower()
-        update_sensors(self._plan.sensors, self._simulation.clock.now_ns)
+        if self._plan.sensors:
+            update_sensors(self._plan.sensors, now_ns)
         for listener in tuple(self._listeners):
             listener()
-        self._falls.look(self._simulation.clock.now_ns)
+        self._falls.look(now_ns)
 
     def _renew(self) -> StepPlan:
         """Return the step plan, renewed if it is outdated."""

@@ -21,7 +21,7 @@ ANGULAR_STEP = 0.75
 LINEAR_MAX = 0.22
 ANGULAR_MAX = 1.5
 
-_RATES = ((ACTIONS - 1) / 2 - np.arange(ACTIONS)) * ANGULAR_STEP
+_RATES: Floats = ANGULAR_STEP * ((ACTIONS - 1) / 2 - np.arange(ACTIONS, dtype=np.float64))
 
 
 def discrete_command(actions: ArrayLike, nworld: int) -> tuple[Floats, Floats]:
@@ -41,9 +41,12 @@ def discrete_command(actions: ArrayLike, nworld: int) -> tuple[Floats, Floats]:
     if chosen.shape != (nworld,):
         raise TaskError(f"actions have shape {chosen.shape}, expected ({nworld},)")
     whole = chosen.dtype.kind in "iu"
-    if not whole or not 0 <= np.minimum.reduce(chosen) <= np.maximum.reduce(chosen) < ACTIONS:
+    # What is below zero is large without a sign: one look is enough.
+    if not whole or not np.maximum.reduce(chosen.astype(np.uint64)) < ACTIONS:
         raise TaskError(f"actions must be ints from 0 to {ACTIONS - 1}")
-    return np.full(nworld, LINEAR), _RATES[chosen]
+    linear = np.empty(nworld)
+    linear.fill(LINEAR)
+    return linear, _RATES.take(chosen)
 
 
 def continuous_command(actions: ArrayLike, nworld: int) -> tuple[Floats, Floats]:
@@ -66,15 +69,3 @@ def continuous_command(actions: ArrayLike, nworld: int) -> tuple[Floats, Floats]
         raise TaskError("actions must be numbers in [-1, 1], not NaN")
     clipped = np.clip(chosen, -1.0, 1.0)
     return (clipped[:, 0] + 1.0) * (LINEAR_MAX / 2.0), clipped[:, 1] * ANGULAR_MAX
-
-
-def turn_index(angular: Floats) -> Floats:
-    """Return the discrete action that turns at this yaw rate, as a float.
-
-    Args:
-        angular: Yaw rates [rad/s], shape (n,).
-
-    Returns:
-        0 at 1.5 rad/s, 4 at -1.5 rad/s, linear between, shape (n,).
-    """
-    return (ACTIONS - 1) / 2 - angular / ANGULAR_STEP

@@ -13,23 +13,21 @@ from gazelle.envs.turtlebot3.row_laws import see
 from gazelle.envs.turtlebot3.rules import Rules
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class RobotViews:
     """Observed state of n worlds at one moment.
 
     Attributes:
         ranges: Cleaned ranges [m], shape (n, samples), numbers of single precision.
-        nearest: Shortest of them [m], shape (n,).
-        rounded: The same, rounded to 0.01 m, shape (n,).
-        ray: Its index, shape (n,).
+        found: Shortest of them [m], the same rounded to 0.01 m, distance and heading, shape (4, n).
+        ray: Index of the shortest, shape (n,).
         distance: To the goal, rounded to 0.01 m, shape (n,).
         heading: Of the goal, rounded to 0.01 rad, shape (n,).
         position: Of the robots in the world frame [m], shape (n, 2).
     """
 
     ranges: Floats32
-    nearest: Floats
-    rounded: Floats
+    found: Floats
     ray: NDArray[np.intp]
     distance: Floats
     heading: Floats
@@ -60,7 +58,7 @@ def sight(
     ray, found = np.empty(count, np.intp), np.empty((4, count))
     whole, farthest = np.ascontiguousarray(ranges), rules.range_max
     see(whole, range_min, farthest, pose, goal, cleaned, shortest, ray, found)
-    return RobotViews(cleaned, found[0], found[1], ray, found[2], found[3], pose[:, :2])
+    return RobotViews(cleaned, found, ray, found[2], found[3], pose[:, :2])
 
 
 def observation(rules: Rules, seen: RobotViews) -> Floats32:
@@ -74,7 +72,7 @@ def observation(rules: Rules, seen: RobotViews) -> Floats32:
     state[:, :samples], state[:, samples] = seen.ranges, seen.heading
     state[:, samples + 1] = seen.distance
     if rules.sees_obstacle:
-        state[:, samples + 2], state[:, samples + 3] = seen.rounded, seen.ray
+        state[:, samples + 2], state[:, samples + 3] = seen.found[1], seen.ray
     return state
 
 

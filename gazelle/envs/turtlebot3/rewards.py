@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from gazelle.array_types import Bools, Floats
-from gazelle.envs.turtlebot3.row_laws import find_waves, scale_rewards
+from gazelle.envs.turtlebot3.observations import RobotViews
+from gazelle.envs.turtlebot3.row_laws import find_waves, judge_all
 from gazelle.envs.turtlebot3.rules import Rules
 
 
@@ -28,37 +29,33 @@ def turning_reward(heading: Floats, index: Floats) -> Floats:
     return wave
 
 
-def travelling_reward(
-    rules: Rules,
-    *,
-    heading: Floats,
-    index: Floats,
-    distance: Floats,
-    start_distance: Floats,
-    nearest: Floats,
-) -> Floats:
-    """Return the reward of a step that neither collides nor arrives.
+def judge(
+    rules: Rules, seen: RobotViews, angular: Floats, start_distance: Floats, margin: float = 0.0
+) -> tuple[Floats, Bools, Bools]:
+    """Return what a step pays, and whether it collides and arrives, each of shape (n,).
+
+    It pays ``round(5 * turning_reward, 2) * 2 ** (distance / start_distance)`` plus the obstacle
+    term. The collision's reward replaces that, and the goal's either.
 
     Args:
         rules: Of the stage.
-        heading: Of the goal, rounded [rad], shape (n,).
-        index: Of the action, see ``turn_index``, shape (n,).
-        distance: To the goal, rounded [m], shape (n,).
+        seen: At the end of the step.
+        angular: Commanded yaw rates [rad/s], -1.5 to 1.5, shape (n,).
         start_distance: To this goal when it was set, rounded [m], shape (n,).
-        nearest: Shortest range, rounded as in the published state [m], shape (n,).
-
-    Returns:
-        ``round(5 * turning_reward, 2) * 2 ** (distance / start_distance)`` plus the obstacle
-        term, shape (n,).
+        margin: Distance before the limit at which a range counts as a collision [m].
     """
-    reward: Floats = np.exp2(distance / start_distance)
-    scale_rewards(heading, index, nearest, rules.obstacle_range, rules.obstacle_reward, reward)
-    return reward
-
-
-def overrule(rules: Rules, reward: Floats, *, collided: Bools, reached: Bools) -> Floats:
-    """Replace the step's reward by the collision's, and either by the goal's."""
-    overruled = reward.copy()
-    np.putmask(overruled, collided, rules.collision_reward)
-    np.putmask(overruled, reached, rules.goal_reward)
-    return overruled
+    reward: Floats = np.exp2(seen.distance / start_distance)
+    ends = np.empty((2, len(reward)), np.bool_)
+    judge_all(
+        seen.found,
+        angular,
+        rules.collision_range + margin,
+        rules.goal_distance,
+        rules.obstacle_range,
+        rules.obstacle_reward,
+        rules.collision_reward,
+        rules.goal_reward,
+        reward,
+        ends.view(np.uint8),
+    )
+    return reward, ends[0], ends[1]

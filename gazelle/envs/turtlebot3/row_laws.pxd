@@ -5,6 +5,7 @@ cpdef void see(
 cdef double wave_of(double heading, double index) noexcept nogil
 cpdef void find_waves(
     const double[::1] heading, const double[::1] index, double[::1] wave) noexcept
-cpdef void scale_rewards(
-    const double[::1] heading, const double[::1] index, const double[::1] nearest, double near,
-    double penalty, double[::1] reward) noexcept
+cpdef void judge_all(
+    const double[:, ::1] found, const double[::1] angular, double collision, double arrival,
+    double near, double penalty, double crash, double prize, double[::1] reward,
+    unsigned char[:, ::1] ends) noexcept

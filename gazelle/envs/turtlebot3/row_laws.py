@@ -70,19 +70,38 @@ def find_waves(heading: Floats, index: Floats, wave: Floats) -> None:
         wave[i] = wave_of(heading[i], index[i])
 
 
-def scale_rewards(
-    heading: Floats, index: Floats, nearest: Floats, near: float, penalty: float, reward: Floats
+def judge_all(
+    found: Floats,
+    angular: Floats,
+    collision: float,
+    arrival: float,
+    near: float,
+    penalty: float,
+    crash: float,
+    prize: float,
+    reward: Floats,
+    ends: NDArray[np.uint8],
 ) -> None:
-    """Multiply factors by the rounded rewards of turns, and add a penalty where a range is short.
+    """Find which robots collide and arrive, and what a step pays.
 
     Args:
-        heading: See ``rewards.travelling_reward``, shape (n,).
-        index: Likewise.
-        nearest: Likewise.
-        near: A shorter range is penalised [m].
+        found: As of ``see``, shape (4, n).
+        angular: Commanded yaw rates [rad/s], shape (n,).
+        collision: A shorter range is a collision [m]; one of 0 is a failed ray.
+        arrival: A shorter rounded distance is a reached goal [m].
+        near: A shorter rounded range is penalised [m].
         penalty: Added there.
-        reward: The factors; becomes the rewards, shape (n,).
+        crash: Reward of a collision.
+        prize: Reward of a reached goal, collision or not.
+        reward: Factors of the rewards of turns; becomes the rewards, shape (n,).
+        ends: For collisions, and for arrivals, shape (2, n).
     """
-    for i in range(heading.shape[0]):
-        turning = round_one(wave_of(heading[i], index[i]) * 5.0, 100.0)
-        reward[i] = turning * reward[i] + (penalty if nearest[i] < near else 0.0)
+    for i in range(reward.shape[0]):
+        turning = round_one(wave_of(found[3, i], 2.0 - angular[i] / 0.75) * 5.0, 100.0)
+        reward[i] = turning * reward[i] + (penalty if found[1, i] < near else 0.0)
+        ends[0, i] = found[0, i] > 0.0 and found[0, i] < collision
+        ends[1, i] = found[2, i] < arrival
+        if ends[0, i]:
+            reward[i] = crash
+        if ends[1, i]:
+            reward[i] = prize

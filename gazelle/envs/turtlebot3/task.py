@@ -22,15 +22,13 @@ from gazelle.envs.turtlebot3.actions import (
     ACTIONS,
     continuous_command,
     discrete_command,
-    turn_index,
 )
 from gazelle.envs.turtlebot3.contract import turtlebot3_contract
 from gazelle.envs.turtlebot3.layout import GoalLayout
 from gazelle.envs.turtlebot3.observations import RobotViews, observation, observation_space, sight
-from gazelle.envs.turtlebot3.rewards import overrule, travelling_reward
+from gazelle.envs.turtlebot3.rewards import judge
 from gazelle.envs.turtlebot3.rules import NO_GOAL, SHORTEST, STAGES, Rules
 from gazelle.envs.turtlebot3.scene import COMMAND, TaskScene
-from gazelle.envs.turtlebot3.terminations import collided, reached
 from gazelle.errors import TaskError
 from gazelle.sensors import SensorModel, View, look_at
 from gazelle.simulation import Simulation
@@ -195,22 +193,15 @@ class TurtleBot3Task(BatchedTask):
             self.scene.robot.inputs[COMMAND].send(linear, angular)
             self.scene.simulation.run(self.control_period)
             seen = self._see(None)
-        crashed = collided(self.rules, seen.nearest, self._margin)
-        arrived = reached(self.rules, seen.distance)
-        reward = travelling_reward(
-            self.rules,
-            heading=seen.heading,
-            index=turn_index(angular),
-            distance=seen.distance,
-            start_distance=self._start_distance,
-            nearest=seen.rounded,
+        reward, crashed, arrived = judge(
+            self.rules, seen, angular, self._start_distance, self._margin
         )
-        reward = overrule(self.rules, reward, collided=crashed, reached=arrived)
-        self._goals_reached += arrived
-        if self.respawn and np.count_nonzero(arrived):
-            self._next_goals(np.flatnonzero(arrived))
+        if np.count_nonzero(arrived):
+            self._goals_reached += arrived
+            if self.respawn:
+                self._next_goals(np.flatnonzero(arrived))
         terminated = crashed if self.respawn else crashed | arrived
-        info = self._info(seen, slice(None), arrived=arrived, crashed=crashed & ~arrived)
+        info = self._info(seen, slice(None), arrived=arrived, crashed=crashed > arrived)
         return TaskOutcome(observation(self.rules, seen), reward, terminated, info)
 
     @property

@@ -13,11 +13,11 @@ from hypothesis import strategies as st
 
 import gazelle.envs  # noqa: F401  registers the environments
 from gazelle.envs.options import NavigationSettings
+from gazelle.envs.turtlebot3.actions import discrete_command
 from gazelle.envs.turtlebot3.observations import observation, sight
-from gazelle.envs.turtlebot3.rewards import overrule, travelling_reward
+from gazelle.envs.turtlebot3.rewards import judge
 from gazelle.envs.turtlebot3.rules import STAGES
 from gazelle.envs.turtlebot3.task import TurtleBot3Task
-from gazelle.envs.turtlebot3.terminations import collided, reached
 
 lengths = st.floats(0.0, 3.5, width=32)
 near_ties = st.sampled_from([0.13, 0.12999999, 0.13000001, 0.495, 0.4949999, 0.4950001, 0.5, 0.505])
@@ -36,16 +36,8 @@ def judged(stage, ranges, position, yaw, goal, action, start_distance):
         pose=np.array([[*position, yaw]]),
         goal=np.array([goal]),
     )
-    crashed, arrived = collided(rules, view.nearest), reached(rules, view.distance)
-    reward = travelling_reward(
-        rules,
-        heading=view.heading,
-        index=np.array([float(action)]),
-        distance=view.distance,
-        start_distance=np.array([start_distance]),
-        nearest=view.rounded,
-    )
-    reward = overrule(rules, reward, collided=crashed, reached=arrived)
+    _, angular = discrete_command([action], 1)
+    reward, crashed, arrived = judge(rules, view, angular, np.array([start_distance]))
     return observation(rules, view)[0], reward[0], crashed[0], arrived[0]
 
 

@@ -7,10 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gazelle.envs.turtlebot3.actions import turn_index
-from gazelle.envs.turtlebot3.rewards import turning_reward
+from gazelle.envs.turtlebot3.observations import RobotViews
+from gazelle.envs.turtlebot3.rewards import judge, turning_reward
 from gazelle.envs.turtlebot3.rules import STAGES
-from gazelle.envs.turtlebot3.terminations import collided, reached
 
 
 def _turn(heading, action):
@@ -33,12 +32,27 @@ def test_the_wave_is_bounded_and_continuous_between_the_actions(heading, index):
     assert abs(here - beside) < 1e-5
 
 
-def test_continuous_yaw_rates_meet_the_discrete_actions():
-    rates = np.array([1.5, 0.75, 0.0, -0.75, -1.5])
-    assert turn_index(rates).tolist() == [0.0, 1.0, 2.0, 3.0, 4.0]
+def _judged(rates, nearest=1.0, distance=1.0, heading=0.3):
+    """Return what ``judge`` says of robots whose goals were as far when they were set."""
+    n = len(rates)
+    found = np.array([np.broadcast_to(e, n) for e in (nearest, nearest, distance, heading)])
+    nothing = np.zeros((n, 0))
+    seen = RobotViews(nothing, found, nothing, found[2], found[3], nothing)
+    return judge(STAGES[1], seen, np.array(rates), found[2].copy())
+
+
+def test_rates_between_the_discrete_actions_pay_what_the_wave_says():
+    index = np.array([0.0, 0.5, 1.0, 2.0, 2.75, 3.0, 4.0])
+    pays, _, _ = _judged(1.5 - 0.75 * index)
+    wave = turning_reward(np.full(len(index), 0.3), index)
+    assert pays == pytest.approx(2.0 * np.round(5.0 * wave, 2))
 
 
 def test_limits_are_open_as_published():
-    rules = STAGES[1]
-    assert collided(rules, np.array([0.0, 0.129, 0.13])).tolist() == [False, True, False]
-    assert reached(rules, np.array([0.19, 0.2])).tolist() == [True, False]
+    assert _judged([0.0] * 3, nearest=[0.0, 0.129, 0.13])[1].tolist() == [False, True, False]
+    assert _judged([0.0] * 2, distance=[0.19, 0.2])[2].tolist() == [True, False]
+
+
+def test_the_goal_pays_also_in_a_collision():
+    pays, _, _ = _judged([0.0] * 2, nearest=0.1, distance=[0.1, 1.0])
+    assert pays.tolist() == [200.0, -200.0]

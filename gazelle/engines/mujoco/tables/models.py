@@ -12,6 +12,7 @@ from gazelle.array_types import Floats, Indices, Worlds
 from gazelle.description import Pose
 from gazelle.engines.motion import Placement
 from gazelle.engines.mujoco.layout import ModelSlot, MujocoLayout
+from gazelle.engines.mujoco.quaternions import xyzw_from_wxyz
 from gazelle.engines.mujoco.state import rows_of
 from gazelle.engines.mujoco.tables.planar_velocity import LevelMotion
 from gazelle.engines.mujoco.tables.root_poses import put_root
@@ -43,6 +44,7 @@ class MujocoModelRow:
     ) -> None:
         self._run, self._name, self._links = run, name, links
         self._make_kinematic = make_kinematic
+        self._freely = Lookup[MujocoLayout, int | None](lambda at: _first_column(at, name))
 
     def placement(self, worlds: Worlds | None = None) -> Placement:
         """Return the pose of the model's frame, which moves with the canonical link."""
@@ -56,9 +58,17 @@ class MujocoModelRow:
 
     def planar_pose(self, worlds: Worlds | None = None) -> Floats:
         """Return the pose seen from above: x, y [m] and heading [rad], shape (n, 3)."""
-        place = self.placement(worlds)
-        pose = np.empty(place.position.shape)
-        pose[:, :2], pose[:, 2] = place.position[:, :2], yaw_of(place.quaternion)
+        first = self._freely.within(self._run.known())
+        if first is None:
+            place = self.placement(worlds)
+            position, yaw = place.position, yaw_of(place.quaternion)
+        else:
+            state = self._run.state.qpos[rows_of(worlds), first : first + 7]
+            if len(state) == 1:
+                return _planar_pose_of_one(state)
+            position, yaw = state, yaw_of(xyzw_from_wxyz(state[:, 3:]))
+        pose = np.empty((len(yaw), 3))
+        pose[:, :2], pose[:, 2] = position[:, :2], yaw
         return pose
 
     def set_placement(
@@ -158,6 +168,20 @@ class MujocoModelRow:
         twists = np.atleast_2d(np.asarray(twist, np.float64))
         level, spin = twists * (1.0, 1.0, 0.0), twists * (0.0, 0.0, 1.0)
         self.set_motion(rotate(heading, level), spin, worlds)
+
+
+def _first_column(layout: MujocoLayout, model: str) -> int | None:
+    """Return the column of a model's position if its frame is that of a free body, else None."""
+    slot = layout.model(model)
+    free = layout.link(slot.canonical).free
+    return None if free is None or slot.back is not None else free.position.start
+
+
+def _planar_pose_of_one(state: Floats) -> Floats:
+    """Return x, y and heading of a single free body, to the bit, shape (1, 3)."""
+    x, y, _, w, i, j, k = state[0].tolist()
+    yaw = np.arctan2(2.0 * (w * k + i * j), 1.0 - 2.0 * (j * j + k * k))
+    return np.array(((x, y, yaw),))
 
 
 @dataclass(frozen=True, slots=True)
