@@ -243,9 +243,10 @@ class Rider:
         while math.hypot(*self.offset(goal)) > 0.2 and self.clock.now() - begun < 60e9:
             ahead, left = self.offset(goal)
             command = kind()
-            if ahead > 0.0:  # along the arc to the goal
-                command.linear.x = 0.3
-                command.angular.z = max(-1.0, min(0.6 * left / (ahead**2 + left**2), 1.0))
+            if ahead > 0.0:  # along the arc to the goal, slower where it is tight
+                bend = 2.0 * left / (ahead**2 + left**2)
+                command.linear.x = min(0.3, 1.0 / max(abs(bend), 1e-6))
+                command.angular.z = bend * command.linear.x
             else:
                 command.angular.z = math.copysign(0.8, left)
             commands.publish(command)
