@@ -10,6 +10,7 @@ from ros.graph import until
 
 from gazelle_ros import Time
 from gazelle_ros.builtin import registry
+from gazelle_ros.builtin.images.depth.disparity import DisparitySettings, disparities, foremost
 from gazelle_ros.builtin.images.depth.metric import converted, depths_of
 from gazelle_ros.builtin.images.depth.points import cloud_of_depth, coloured_cloud
 from gazelle_ros.builtin.images.depth.register import registered
@@ -82,6 +83,47 @@ def test_points_have_the_colours_of_their_pixels():
     found = np.stack([packed >> 16 & 255, packed >> 8 & 255, packed & 255], axis=-1)
     assert np.array_equal(found, colours)
     assert np.array_equal(points_of(cloud), points_of(cloud_of_depth(depth_image(SLOPE), camera())))
+
+
+def test_points_have_the_intensities_of_their_pixels():
+    grey = np.arange(48, dtype=np.uint16).reshape(SIZE) * 700
+    image = CvBridge().cv2_to_imgmsg(grey, "mono16", header())
+    cloud = coloured_cloud(depth_image(SLOPE), image, camera(), intensity=True)
+    assert [(each.name, each.offset) for each in cloud.fields][-1] == ("intensity", 12)
+    assert np.array_equal(split_columns(cloud)["intensity"].reshape(SIZE), grey)
+    assert np.array_equal(points_of(cloud), points_of(cloud_of_depth(depth_image(SLOPE), camera())))
+    colours = CvBridge().cv2_to_imgmsg(np.zeros((*SIZE, 3), np.uint8), "rgb8", header())
+    with pytest.raises(ValueError, match="intensities are one value a pixel"):
+        coloured_cloud(depth_image(SLOPE), colours, camera(), intensity=True)
+
+
+def test_disparities_are_those_of_a_point_in_both_cameras():
+    depths = SLOPE.copy()
+    depths[1, 2] = np.nan
+    right = camera(40.0)
+    right.P[3] = -40.0 * 0.1
+    found = disparities(depth_image(depths), right, DisparitySettings(min_range=0.4, max_range=5.0))
+    assert (found.f, found.T) == (40.0, 0.1)
+    assert (found.min_disparity, found.max_disparity) == pytest.approx((0.8, 10.0))
+    shifts = CvBridge().imgmsg_to_cv2(found.image)
+    assert shifts[1, 2] == 0.0
+    left, other = PinholeCameraModel(), PinholeCameraModel()
+    left.fromCameraInfo(camera(40.0))
+    other.fromCameraInfo(right)
+    for x, y, z in ((0.0, 0.0, SLOPE[2, 3]), (0.1, -0.1, SLOPE[4, 5])):
+        apart = left.project3dToPixel((x, y, z))[0] - other.project3dToPixel((x, y, z))[0]
+        assert np.isclose(shifts, apart).any()
+
+
+@pytest.mark.parametrize(("encoding", "distance"), [("32FC1", 0.5), ("16UC1", 500.0)])
+def test_what_is_far_behind_the_nearest_pixel_is_cropped(encoding, distance):
+    depths = SLOPE.copy()
+    depths[0, 0] = np.nan
+    found = depths_of(foremost(depth_image(depths, encoding), distance))
+    least = np.nanmin(depths)
+    kept = found > 0.0
+    assert np.array_equal(kept, np.nan_to_num(depths, nan=9.0) <= least + 0.5)
+    assert found[kept] == pytest.approx(depths[kept], abs=6e-4)
 
 
 def test_a_larger_image_colours_a_smaller_depth_image():

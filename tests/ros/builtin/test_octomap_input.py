@@ -10,13 +10,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gazelle_ros.base.errors import RosError
-from gazelle_ros.builtin.octomap import server
+from gazelle_ros.builtin.octomap import server, static
 from gazelle_ros.builtin.octomap.codec import binary_tree, full_tree
 from gazelle_ros.builtin.octomap.ground import GroundFilter
 from gazelle_ros.builtin.octomap.morton import encode
 from gazelle_ros.builtin.octomap.reader import read_octomap
 from gazelle_ros.builtin.octomap.saver import write_octomap
 from gazelle_ros.builtin.octomap.server import OctomapServer
+from gazelle_ros.builtin.octomap.static import StaticOctomap
 from gazelle_ros.builtin.octomap.voxels import HitModel, VoxelMap
 from gazelle_ros.msgs import octomap_msgs
 
@@ -94,6 +95,25 @@ def test_a_server_begins_with_the_map_of_a_file(make_node, tmp_path, by_paramete
     assert np.allclose(
         made.map.values, np.clip(values, math.log(0.12 / 0.88), math.log(0.97 / 0.03))
     )
+
+
+def test_a_static_server_answers_with_the_map_of_its_file(make_node, tmp_path):
+    codes, values = cells({(32768, 32768, 32770), (32769, 32768, 32770)})
+    path = written(tmp_path / "a.ot", full_tree(codes, values), binary=False)
+    node = make_node("octomap_server_static")
+    node.set_param("~frame_id", "odom")
+    StaticOctomap(node, str(path))
+    kind = octomap_msgs.srv.GetOctomap
+    for name, data in (
+        ("octomap_binary", binary_tree(codes, values >= 0.0)),
+        ("octomap_full", full_tree(codes, values)),
+    ):
+        found = make_node(f"asks_{name}").client(name, kind).call(kind._request_class(), 30.0).map
+        assert (found.header.frame_id, found.resolution, found.id) == ("odom", 0.25, "OcTree")
+        assert found.binary == (name == "octomap_binary")
+        assert np.array(found.data, np.int8).tobytes() == data
+    with pytest.raises(RosError, match="it takes one file"):
+        static.main([])
 
 
 def test_a_server_takes_one_file():

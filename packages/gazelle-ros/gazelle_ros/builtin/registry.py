@@ -54,7 +54,10 @@ _OWN = {
         BuiltinPackage("cmd_vel_mux", {"cmd_vel_mux": "gazelle_ros.builtin.cmd_vel_mux:main"}, _CMD_VEL_MUX),
         BuiltinPackage("depth_image_proc", nodelets={
             "convert_metric": "gazelle_ros.builtin.images.depth.metric:convert_metric",
+            "crop_foremost": "gazelle_ros.builtin.images.depth.disparity:crop_foremost",
+            "disparity": "gazelle_ros.builtin.images.depth.disparity:disparity",
             "point_cloud_xyz": "gazelle_ros.builtin.images.depth.points:point_cloud_xyz",
+            "point_cloud_xyzi": "gazelle_ros.builtin.images.depth.points:point_cloud_xyzi",
             "point_cloud_xyzrgb": "gazelle_ros.builtin.images.depth.points:point_cloud_xyzrgb",
             "register": "gazelle_ros.builtin.images.depth.register:RegisterDepth",
         }),
@@ -108,6 +111,7 @@ _OWN = {
         BuiltinPackage("nodelet", {"nodelet": "gazelle_ros.builtin.nodelets.command:main"}),
         BuiltinPackage("octomap_server", {
             "octomap_server_node": "gazelle_ros.builtin.octomap.server:main",
+            "octomap_server_static": "gazelle_ros.builtin.octomap.static:main",
             "octomap_saver": "gazelle_ros.builtin.octomap.saver:main",
         }, {"OctomapServerNodelet": "gazelle_ros.builtin.octomap.server:OctomapServer"}),
         BuiltinPackage("pointcloud_to_laserscan", {

@@ -1,4 +1,4 @@
-"""Nodelets ``depth_image_proc/point_cloud_xyz`` and ``point_cloud_xyzrgb`` (http://wiki.ros.org/depth_image_proc)."""
+"""Nodelets ``depth_image_proc/point_cloud_xyz``, ``xyzi`` and ``xyzrgb`` (http://wiki.ros.org/depth_image_proc)."""
 
 from __future__ import annotations
 
@@ -24,6 +24,7 @@ from gazelle_ros.node import Node
 _FIELD = sensor_msgs.msg.PointField
 _PLACE = [(name, 4 * index, "<f4") for index, name in enumerate("xyz")]
 _COLOUR = ("rgb", 16, "<u4")
+_INTENSITY = ("intensity", 12, "<f4")
 _PLAIN_BYTES, _COLOURED_BYTES = 16, 32
 
 
@@ -81,6 +82,31 @@ def point_cloud_xyzrgb(node: Node) -> ImageConversion:
     )
 
 
+def point_cloud_xyzi(node: Node) -> ImageConversion:
+    """Return the work of ``point_cloud_xyzi``: registered depth with the intensities of a camera.
+
+    Topics are ``depth/image_rect``, ``intensity/image_rect``, ``intensity/camera_info`` and
+    ``depth/points``.
+
+    Raises:
+        Error: A parameter is wrong.
+    """
+    settings = settings_of(node, CloudSettings, others=TRANSPORT_PARAMETERS)
+    kinds = sensor_msgs.msg
+    return ImageConversion(
+        node,
+        [
+            ("depth/image_rect", kinds.Image),
+            ("intensity/image_rect", kinds.Image),
+            ("intensity/camera_info", kinds.CameraInfo),
+        ],
+        [("depth/points", kinds.PointCloud2)],
+        lambda depth, grey, camera: [coloured_cloud(depth, grey, camera, intensity=True)],
+        queue_size=settings.queue_size,
+        exact=settings.exact_sync,
+    )
+
+
 def cloud_of_depth(
     depth: sensor_msgs.msg.Image, camera: sensor_msgs.msg.CameraInfo
 ) -> sensor_msgs.msg.PointCloud2:
@@ -97,6 +123,8 @@ def coloured_cloud(
     depth: sensor_msgs.msg.Image,
     colours: sensor_msgs.msg.Image,
     camera: sensor_msgs.msg.CameraInfo,
+    *,
+    intensity: bool = False,
 ) -> sensor_msgs.msg.PointCloud2:
     """Return the point of each pixel of a depth image with its colour.
 
@@ -104,6 +132,7 @@ def coloured_cloud(
         depth: Registered to the camera of the colours.
         colours: Of any size; it is resized to that of the depth.
         camera: Camera of the colours.
+        intensity: Whether the colours are one value a pixel, of any kind.
 
     Raises:
         ValueError: The images have different frames, or one is none of its kind.
@@ -114,7 +143,9 @@ def coloured_cloud(
             f"the frame of the depth is '{depth.header.frame_id}', that of the colours "
             f"'{colours.header.frame_id}'; depth_image_proc/register changes the former"
         )
-    pixels = CvBridge().imgmsg_to_cv2(colours, "rgb8")
+    pixels = CvBridge().imgmsg_to_cv2(colours, *([] if intensity else ["rgb8"]))
+    if intensity and pixels.ndim != 2:
+        raise ValueError(f"the encoding is {colours.encoding}; intensities are one value a pixel")
     depths = depths_of(depth)
     if pixels.shape[:2] != depths.shape:
         height, width = depths.shape
@@ -154,15 +185,19 @@ def points_of(
 def _cloud(
     depth: sensor_msgs.msg.Image, points: Floats, colours: Pixels | None
 ) -> sensor_msgs.msg.PointCloud2:
-    parts = [*_PLACE, *([] if colours is None else [_COLOUR])]
-    size = _PLAIN_BYTES if colours is None else _COLOURED_BYTES
+    parts, size = list(_PLACE), _PLAIN_BYTES
+    if colours is not None:
+        parts.append(_INTENSITY if colours.ndim == 2 else _COLOUR)
+        size = _PLAIN_BYTES if colours.ndim == 2 else _COLOURED_BYTES
     names, offsets = [each[0] for each in parts], [each[1] for each in parts]
     formats = [each[2] for each in parts]
     layout = np.dtype({"names": names, "offsets": offsets, "formats": formats, "itemsize": size})
     packed = np.zeros(points.shape[:2], layout)
     for place, name in enumerate("xyz"):
         packed[name] = points[..., place]
-    if colours is not None:
+    if colours is not None and colours.ndim == 2:
+        packed["intensity"] = colours
+    elif colours is not None:
         wide = colours.astype(np.uint32)
         packed["rgb"] = wide[..., 0] << 16 | wide[..., 1] << 8 | wide[..., 2]
     height, width = points.shape[:2]
