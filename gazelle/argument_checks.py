@@ -133,9 +133,9 @@ def _decorate_members(kind: type, checking: Callable[..., Any]) -> None:
 
 def _checking(function: Any, error: type[Error], most: float, *, first: bool, after: bool) -> Any:
     parameters = inspect.signature(function).parameters
-    passed = {"seed"}
+    passed = {"seed", "self"}
     if function.__name__ == "__init__":
-        passed |= {"self", *(n for n, each in parameters.items() if each.annotation == "Values")}
+        passed |= {n for n, each in parameters.items() if each.annotation == "Values"}
     look = _look_at(parameters, error, most, passed)
     arrays = any(_TAKES_ARRAYS.search(str(each.annotation)) for each in parameters.values())
     failures: tuple[type[Exception], ...] = _OF_VALUES if after else _OF_SHAPES if arrays else ()
@@ -162,8 +162,8 @@ def _look_at(
 ) -> Callable[..., None]:
     """Return what raises an error for an argument that cannot be.
 
-    Some are passed over: a seed, which is any int, also one of 128 bits, and in a constructor an
-    object without attributes yet and parameters that its settings check.
+    Some are passed over: a seed, which is any int, also one of 128 bits, the object of a method, and in
+    a constructor parameters that its settings check.
     """
     order = [name for name, each in parameters.items() if each.kind != each.KEYWORD_ONLY]
     rules = {
@@ -213,9 +213,9 @@ def _fault(value: Any, most: float, depth: int = 0) -> str | None:
     kind = type(value)
     if value is None or kind is bool or kind in _CHECKED:
         return None
-    if isinstance(value, Integral):
+    if kind is int or (kind is not str and isinstance(value, Integral)):  # ABCs are slow
         return None if abs(int(value)) <= MOST_INT else "less than 2^63"
-    if isinstance(value, Real):
+    if kind is not str and isinstance(value, Real):
         number = float(value)
         return None if abs(number) <= most else _limited(most, many=depth > 0)
     if isinstance(value, str | Path):

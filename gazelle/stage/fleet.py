@@ -225,6 +225,12 @@ class StageFleet(StageDevices):
         found: Floats = np.where(odometry.used[None, :, None], odometry.pose, poses)
         return found
 
+    def odometry_of(self, robot: int) -> Floats:
+        """Return the pose of one robot by its ``localization``, shape (nworld, 3)."""
+        odometry = self._motion.odometry
+        known = odometry.needed and odometry.used[robot]
+        return (odometry.pose if known else self.poses)[:, robot]
+
     @property
     def stalled(self) -> NDArray[np.bool_]:
         """True where a robot's last move was not made, as it would have hit something."""

@@ -80,8 +80,8 @@ def open_outputs(fleet: StageFleet, robot: Robot) -> None:
 
 def _odometry(fleet: StageFleet, name: str, frames: tuple[str, str]) -> Odometry:
     """Return the odometry of a robot."""
-    nworld, robot = fleet.nworld, fleet.robot(name)
-    pose, driven = fleet.odometry[:, robot.index], fleet.velocities[:, robot.index]
+    nworld, robot = fleet.nworld, fleet.named[name]
+    pose, driven = fleet.odometry_of(robot.index), fleet.velocities[:, robot.index]
     position, linear, angular = (np.zeros((nworld, 3)) for _ in range(3))
     position[:, :2], position[:, 2] = pose[:, :2], robot.model.pose.z
     linear[:, :2], angular[:, 2] = driven[:, :2], driven[:, 2]
@@ -97,9 +97,14 @@ def _camera_model(fleet: StageFleet, name: str, which: int, sensor: Sensor) -> S
 
 
 def _ranger_model(fleet: StageFleet, name: str, which: int, number: int) -> RangerModel:
-    def ranges() -> Floats:  # other models may have come or gone
-        scanner, place = fleet.robot(name).rangers[which].places[number]
-        seen: Floats = fleet.scan(scanner)[:, place]
+    found: tuple[int, tuple[int, int]] = (-1, (0, 0))
+
+    def ranges() -> Floats:
+        nonlocal found
+        if found[0] != fleet.engine.revision:  # other models may have come or gone
+            found = fleet.engine.revision, fleet.named[name].rangers[which].places[number]
+        scanner, place = found[1]
+        seen: Floats = fleet.rangers.scan(scanner)[:, place]
         return seen
 
     return RangerModel(fleet.robot(name).rangers[which].sensors[number], ranges)
