@@ -37,6 +37,7 @@ from gazelle.engines.mujoco.compiler.spec import CompilerInput, compile_world
 
 STEP = 0.001
 WINDOWS = 20
+PLANES = 1024
 COUNTS = (1, 3, 10, 30, 100, 300, 1000)
 BY_HAND = Path(__file__).parent / "turtlebot3_world.xml"
 CORPUS = Path(os.environ.get("GAZELLE_CORPUS", Path(__file__).parents[2] / "shared" / "corpus"))
@@ -57,6 +58,7 @@ def main() -> None:
     print(f"{os.cpu_count()} processors, {step}, best of {WINDOWS} windows of processor time")
     one_burger(args.seconds)
     many_worlds(args.seconds)
+    many_planes(args.seconds)
     beside_mujoco(args.seconds)
     big_worlds(args.seconds)
     boxes(args.seconds / 3.0)
@@ -84,9 +86,11 @@ def on_one_core(work: list[Callable[[], float]], seconds: float) -> list[float]:
     return rates(work, seconds, time.process_time)
 
 
-def burger(nworld: int, threads: int | None) -> gazelle.Simulation:
+def burger(nworld: int, threads: int | None, engine: str = "mujoco") -> gazelle.Simulation:
     """Return the burger driving in turtlebot3_world, its wheels turning."""
-    sim = gazelle.Simulation("turtlebot3_world", nworld=nworld, threads=threads, time_step=STEP)
+    sim = gazelle.Simulation(
+        "turtlebot3_world", engine, nworld=nworld, threads=threads, time_step=STEP
+    )
     add_burger(sim, -2.0, -0.5)
     return sim
 
@@ -139,6 +143,21 @@ def many_worlds(seconds: float) -> None:
         f"256 worlds: {one:,.0f} world-steps/s on one thread, {two:,.0f} on two: "
         f"{two / one:.2f} times"
     )
+
+
+def many_planes(seconds: float) -> None:
+    """Measure 1,024 worlds in the plane with new commands and 360 rays every 0.2 s."""
+    sim = burger(PLANES, None, "planar")
+    robot, rng = sim.robots["burger"], np.random.default_rng(0)
+    robot.sensors["lds_lfcd_sensor"].subscribe(lambda _: None)
+
+    def control() -> float:
+        robot.inputs["cmd_vel"].send(rng.uniform(0.05, 0.15, PLANES), rng.uniform(0.5, 1.5, PLANES))
+        sim.run(seconds=0.2)
+        return PLANES
+
+    (rate,) = on_one_core([control], seconds)
+    print(f"{PLANES:,} worlds in the plane, 360 rays: {rate:,.0f} control steps/s of 0.2 s")
 
 
 def beside_mujoco(seconds: float) -> None:
