@@ -13,6 +13,7 @@ import numpy as np
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Joint, Model, Pose, World
+from gazelle.engines.free_links import with_free_links
 from gazelle.engines.motion import Motion, Placement
 from gazelle.engines.state import JointRow, JointRows, LinkRow, LinkRows
 from gazelle.engines.table import Table
@@ -107,7 +108,7 @@ class HangingLinks:
         """Return the nearest joint above a link that can move; None if there is none."""
         root = link.partition("::")[0]
         model: Model = next(each for each in self._world().models if each.name == root)
-        bodies = {body.name: body for body in tree_of(model).bodies}
+        bodies = {body.name: body for body in tree_of(with_free_links(model)).bodies}
         body, offset = bodies[link], Pose()
         while body.joint is not None and body.joint.type in self._fixed:
             if body.parent is None:

@@ -33,6 +33,20 @@ def text(link="", joint=LIMIT, rest=""):
             "the attribute 'uper' means nothing in a <limit>",
             "did you mean 'upper'?",
         ),
+        (
+            {
+                "link": "<visual><geometry><sphere radius='1'/></geometry>"
+                "<material name='gray'/></visual>",
+                "rest": "<material name='grey'><color rgba='1 1 1 1'/></material>",
+            },
+            "there is no material 'gray'",
+            "did you mean 'grey'?",
+        ),
+        (
+            {"rest": "<material name='grey'><color rgba='128 128 128 1'/></material>"},
+            "a colour has values from 0 to 1, found '128 128 128 1'",
+            "divide them by 255",
+        ),
         ({"rest": "<jont name='x'/>"}, "<jont> is not a URDF", "did you mean 'joint'?"),
         (
             {"joint": f"<origin xzy='0 0 1'/>{LIMIT}"},

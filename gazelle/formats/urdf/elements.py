@@ -192,5 +192,9 @@ def read_paint(node: Parameters, reading: Reading) -> Paint:
     rgba = None
     if color is not None and color.attributes.get("rgba"):
         rgba = values.parse_color(color, color.attributes["rgba"])
+        if max(rgba) > 1.0:
+            written = color.attributes["rgba"]
+            text = f"a colour has values from 0 to 1, found '{written}'"
+            reading.note(text, color, "divide them by 255")
     uri = "" if texture is None else texture.attributes.get("filename", "")
     return Paint(rgba, reading.find(uri, node, required=False) if uri else None)

@@ -131,7 +131,11 @@ def _material(node: Parameters, elements: list[Parameters], robot: PartReader) -
     own = node.find("material")
     paint = Paint()
     if own is not None:
-        paint = robot.paints.get(own.attributes.get("name", "")) or read_paint(own, robot.reading)
+        name = own.attributes.get("name", "")
+        paint = robot.paints.get(name) or read_paint(own, robot.reading)
+        if name and name not in robot.paints:
+            hint = did_you_mean(name, robot.paints)
+            robot.reading.note(f"there is no material '{name}'", own, hint)
     found = material(elements, robot.reading)
     if own is None and found is None:
         return None

@@ -134,6 +134,25 @@ def test_a_planar_joint_leaves_three_motions():
     assert place.yaw == pytest.approx(0.5)
 
 
+def test_a_floating_joint_between_links_leaves_them_free_as_in_gazebo():
+    above = joint("k", "revolute", "b", "c", Z)
+    with pytest.warns(EngineWarning, match="'m::j' is floating and left out: 'b' is a free link"):
+        engine = engine_of(
+            joint("j", "floating", "a", "b"),
+            above,
+            links=("a", "b", "c"),
+            poses={"b": {"z": 2.0}, "c": {"z": 3.0}},
+            gravity=(0.0, 0.0, -10.0),
+        )
+    engine.step(100)
+    time = 100 * engine.time_step
+    for name, z in {"b": 2.0, "c": 3.0}.items():
+        assert relative(engine, name).z == pytest.approx(
+            z - 5.0 * time**2, abs=6.0 * time * engine.time_step
+        )
+    assert relative(engine, "a").z == 0.0
+
+
 def test_a_gearbox_turns_its_driven_wheel_the_other_way():
     engine = engine_of(
         joint("in", "revolute", "a", "b", X),

@@ -11,6 +11,7 @@ from typing import Any
 import mujoco
 
 from gazelle.description import Collision, Inertial, Model, Plane, Pose, World
+from gazelle.engines.free_links import warn_of_free_links, with_free_links
 from gazelle.engines.mujoco.compiler.bvh import tighten_hierarchies
 from gazelle.engines.mujoco.compiler.contact_pairs import (
     ContactGeom,
@@ -194,7 +195,9 @@ def trees_of(recipe: CompilerInput) -> dict[str, KinematicTree]:
         EngineError: A joint names a link that is not there.
     """
     return {
-        model.name: tree_of(with_frame_link(model), kinematic=model.name in recipe.kinematic)
+        model.name: tree_of(
+            with_free_links(with_frame_link(model)), kinematic=model.name in recipe.kinematic
+        )
         for model in recipe.world.models
     }
 
@@ -226,6 +229,8 @@ def draft_world(recipe: CompilerInput) -> Draft:
         spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     warn_of_losses(bodies.values(), slips)
     warn_of_links(bodies.values())
+    for model in recipe.world.models:
+        warn_of_free_links(model)
     pairs = add_pairs(spec, builder.solids, recipe.time_step, math.hypot(*recipe.world.gravity))
     if pairs.springs or pairs.bounces or pairs.rubs:
         # In a pyramid friction would give way with the spring, by a factor of 1 / mu² more,
