@@ -20,6 +20,7 @@ from gazelle.stage.devices import Devices
 from gazelle.stage.drive_state import DriveState
 from gazelle.stage.fleet_controller import FleetController
 from gazelle.stage.layout import stage_layout
+from gazelle.stage.measured_odometry import MeasuredOdometry
 from gazelle.stage.rangers import Rangers
 from gazelle.stage.robots import StageRobot, warn_of_mounted_drives
 from gazelle.stage.scans import StageRangeNoise
@@ -97,6 +98,9 @@ class StageFleet(StageDevices):
         self._rangers = Rangers(fleet, layout.fans, layout.mounts, layout.noises, self.seed)
         self._motion = DriveState(self._robots, fleet, self.seed)
         self._devices = Devices(self)
+        self._measured = MeasuredOdometry(
+            self._robots, fleet, self.clock, lambda: (self.odometry, self.velocities)
+        )
         self.forget_views()
 
     @property
@@ -225,11 +229,11 @@ class StageFleet(StageDevices):
         found: Floats = np.where(odometry.used[None, :, None], odometry.pose, poses)
         return found
 
-    def odometry_of(self, robot: int) -> Floats:
-        """Return the pose of one robot by its ``localization``, shape (nworld, 3)."""
-        odometry = self._motion.odometry
-        known = odometry.needed and odometry.used[robot]
-        return (odometry.pose if known else self.poses)[:, robot]
+    @property
+    def measured_odometry(self) -> MeasuredOdometry:
+        """Odometry of each robot as a value."""
+        self.refresh()
+        return self._measured
 
     @property
     def stalled(self) -> NDArray[np.bool_]:

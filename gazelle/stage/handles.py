@@ -3,13 +3,9 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import Any
-
-import numpy as np
 
 from gazelle.array_types import Floats
 from gazelle.description import Model, Sensor
-from gazelle.rotations import from_yaw
 from gazelle.sensors import LaserScan, SensorModel
 from gazelle.simulation.ports import TwistInput
 from gazelle.simulation.robot import Robot
@@ -74,21 +70,12 @@ def open_outputs(fleet: StageFleet, robot: Robot) -> None:
             tags = plugin.parameters
             own = tags.get("robotNamespace", "")
             frames = tags.get("odometryFrame", "odom"), tags.get("robotBaseFrame", "base_link")
-            measure = partial(_odometry, fleet, robot.name, frames)
+            measure = partial(_odometry_of, fleet, robot.name, frames)
             robot.outputs["odom"] = StepOutput(robot, absolute(own, "odom"), Odometry, measure, own)
 
 
-def _odometry(fleet: StageFleet, name: str, frames: tuple[str, str]) -> Odometry:
-    """Return the odometry of a robot."""
-    nworld, robot = fleet.nworld, fleet.named[name]
-    pose, driven = fleet.odometry_of(robot.index), fleet.velocities[:, robot.index]
-    position, linear, angular = (np.zeros((nworld, 3)) for _ in range(3))
-    position[:, :2], position[:, 2] = pose[:, :2], robot.model.pose.z
-    linear[:, :2], angular[:, 2] = driven[:, :2], driven[:, 2]
-    none: Any = (0.0,) * 6
-    now = fleet.clock.now_ns
-    turned = from_yaw(pose[:, 2])
-    return Odometry(now, *frames, position, turned, linear, angular, none, none)
+def _odometry_of(fleet: StageFleet, name: str, frames: tuple[str, str]) -> Odometry:
+    return fleet.measured_odometry.of(name, frames)  # of a fleet with other models, another
 
 
 def _camera_model(fleet: StageFleet, name: str, which: int, sensor: Sensor) -> SensorModel:
