@@ -144,7 +144,7 @@ WORLDS = {
         "",
     ),
     "test/test_worlds/trisphere_cycle_wheel_slip.world": (
-        "ground_plane",
+        "ground_plane trisphere_cycle_slip0 trisphere_cycle_slip1",
         "",
         "",
     ),

@@ -8,6 +8,7 @@ import subprocess
 import sys
 
 import pytest
+from ports import free_port
 from ros.graph import until
 
 from gazelle.errors import RosError
@@ -20,7 +21,8 @@ def test_moveit_needs_a_graph(cli):
     assert "--ros" in err
 
 
-def test_a_robot_without_a_package_for_moveit_is_refused(cli):
+def test_a_robot_without_a_package_for_moveit_is_refused(cli, monkeypatch):
+    monkeypatch.setenv("ROS_MASTER_URI", f"http://localhost:{free_port()}")
     code, _, err = cli("run", "rrbot", "--ros", "--moveit", "--for", "0.1")
     assert code == 1
     assert "move_group.launch" in err

@@ -164,8 +164,8 @@ def test_a_mesh_has_the_same_triangles_with_and_without_looks(tmp_path):
     whole, parts = load_mesh(mesh), load_mesh_parts(mesh)
     triangles = np.concatenate([part.vertices[part.faces] for part in parts])
     assert np.array_equal(whole.vertices[whole.faces], triangles)
-    assert parts[0].look.color == (0.2, 0.4, 0.6)
-    assert parts[1].look.uv.shape == (2, 3, 2)
+    assert parts[0].material.color == (0.2, 0.4, 0.6)
+    assert parts[1].material.uv.shape == (2, 3, 2)
 
 
 def test_a_picture_that_is_missing_leaves_the_mesh_grey(tmp_path):
