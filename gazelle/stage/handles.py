@@ -91,7 +91,7 @@ def _ranger_model(fleet: StageFleet, name: str, which: int, number: int) -> Rang
         if found[0] != fleet.engine.revision:  # other models may have come or gone
             found = fleet.engine.revision, fleet.named[name].rangers[which].places[number]
         scanner, place = found[1]
-        seen: Floats = fleet.rangers.scan(scanner)[:, place]
+        seen: Floats = fleet.rangers.readings(scanner)[:, place]
         return seen
 
     return RangerModel(fleet.robot(name).rangers[which].sensors[number], ranges)

@@ -19,7 +19,7 @@ class RangerModel:
 
     Args:
         sensor: Settings of the file.
-        ranges: Current ranges, the maximum for a miss, shape (nworld, samples).
+        ranges: Returns current ranges, infinite for a miss, shape (nworld, samples).
     """
 
     def __init__(self, sensor: StageSensor, ranges: Callable[[], Floats]) -> None:
@@ -37,9 +37,8 @@ class RangerModel:
 
     def measure(self, worlds: Worlds | None = None, interval: float = 0.0) -> Floats:  # noqa: ARG002  Stage's noise does not drift
         """Return ranges now [m], shape (n, samples), with the meaning of ``LaserScan.ranges``."""
-        ranges = self._ranges()[slice(None) if worlds is None else worlds]
-        found: Floats = np.where(ranges < self._sensor.range[1], ranges, np.inf)
-        return found
+        ranges = self._ranges()
+        return ranges.copy() if worlds is None else ranges[worlds]
 
     def reading(self, values: Floats, stamp: int) -> LaserScan:
         """Return a measurement as a ``LaserScan``."""
