@@ -133,6 +133,21 @@ class Semantics(HoldsMappings):
         hint = did_you_mean(name, [group.name for group in self.groups])
         raise FormatError(f"there is no group '{name}'", source=self.source, hint=hint)
 
+    def parts_of(self, name: str) -> list[JointGroup]:
+        """Return the group with a name and all groups that are part of it, each once.
+
+        Raises:
+            FormatError: One of them is not there.
+        """
+        found: dict[str, JointGroup] = {}
+        pending = [name]
+        while pending:
+            group = self.group(pending.pop())
+            if group.name not in found:
+                found[group.name] = group
+                pending.extend(reversed(group.groups))
+        return list(found.values())
+
     def state(self, group: str, name: str) -> JointGroupState:
         """Return the named posture of a group.
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 from types import MappingProxyType
 from typing import Protocol, TypeVar
@@ -241,13 +242,19 @@ def _group_name(node: Parameters, attribute: str, groups: Iterable[str]) -> str:
     return name
 
 
-def _check_groups(groups: Iterable[JointGroup], names: list[str], root: Parameters) -> None:
+def _check_groups(groups: Sequence[JointGroup], names: list[str], root: Parameters) -> None:
     for group in groups:
         for inner in group.groups:
             if inner not in names:
                 node = Parameters("group", source=group.source or root.source)
                 hint = did_you_mean(inner, names)
                 raise values.fail(node, f"there is no group '{inner}'", hint=hint)
+    try:
+        TopologicalSorter({group.name: group.groups for group in groups}).prepare()
+    except CycleError as error:
+        name = error.args[1][0]
+        node = Parameters("group", source=next(g.source for g in groups if g.name == name))
+        raise values.fail(node, f"the group '{name}' is part of itself") from None
 
 
 _KNOWN = {

@@ -22,15 +22,16 @@ class GroupJoints:
         self._joints = [joint.name for joint in (*tree.graph.holders.values(), *tree.closing)]
         self._links, self._parts = {tree.root, *tree.bodies}, tree.parts()
 
-    def names(self, group: str, outer: tuple[str, ...] = ()) -> Iterator[str]:
+    def names(self, group: str) -> Iterator[str]:
         """Yield the names of a group's joints, those of groups that are part of it too.
 
         Raises:
             FormatError: The group, or a joint or link that it names, is not there.
         """
-        found = self._semantics.group(group)
-        if group in outer:
-            raise FormatError(f"the group '{group}' is part of itself", source=found.source)
+        for found in self._semantics.parts_of(group):
+            yield from self._own_names(found)
+
+    def _own_names(self, found: JointGroup) -> Iterator[str]:
         for joint in found.joints:
             virtual = any(other.name == joint for other in self._semantics.virtual_joints)
             if not virtual and self._has_joint(joint, found):
@@ -42,8 +43,6 @@ class GroupJoints:
         for base, tip in found.chains:
             ends = self._body(base, found), self._body(tip, found)
             yield from (joint.name for joint in self._graph.between(*ends))
-        for inner in found.groups:
-            yield from self.names(inner, (*outer, group))
 
     def _has_joint(self, name: str, group: JointGroup) -> bool:
         """Return whether a joint exists: a fixed one may have become part of a link."""

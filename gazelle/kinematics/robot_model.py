@@ -12,7 +12,6 @@ from gazelle.array_types import Floats, Indices
 from gazelle.description import (
     EndEffector,
     Joint,
-    JointGroup,
     Model,
     Pose,
     Semantics,
@@ -148,7 +147,7 @@ class RobotModel:
     def _group(self, name: str) -> JointModelGroup:
         """Build a group from the SRDF, and derive its links, tips and base."""
         joints = {joint.name for joint in self.joints_of(name)}
-        said = self._nested_groups(name)
+        said = self.semantics.parts_of(name)
         joints |= {joint for group in said for joint in group.joints}
         chains = [chain for group in said for chain in group.chains]
         links = [joint.child for joint in self.joints.values() if joint.name in joints]
@@ -158,11 +157,6 @@ class RobotModel:
         tips = tuple(tip for _, tip in chains) or ends_of(ordered, self._parents())
         base = chains[0][0] if len(chains) == 1 and len(said) == 1 else ""
         return self._made(name, joints, tuple(ordered), tips, base)
-
-    def _nested_groups(self, name: str) -> list[JointGroup]:
-        """Return a group and all that are part of it."""
-        group = self.semantics.group(name)
-        return [group, *(each for inner in group.groups for each in self._nested_groups(inner))]
 
     def _parents(self) -> dict[str, str]:
         """Return the parent of each link."""
