@@ -1,7 +1,19 @@
-"""``python -m gazelle``: the command ``gazelle``."""
+"""The program ``gazelle``, also ``python -m gazelle``: few imports until Ctrl-C is handled."""
 
 import sys
 
-from gazelle.cli.main import main
+from gazelle_ros.base.early_signals import ending_quietly
 
-sys.exit(main())
+
+def main() -> int:
+    """Import and run the command line; returns the exit code."""
+    try:
+        with ending_quietly():
+            from gazelle.cli.main import main as run
+        return run()
+    except KeyboardInterrupt:  # before or after the command
+        return 130
+
+
+if __name__ == "__main__":
+    sys.exit(main())

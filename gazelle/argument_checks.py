@@ -208,18 +208,20 @@ def _is_endless(default: Any) -> bool:
 
 def _fault(value: Any, most: float, depth: int = 0) -> str | None:
     """Return what a value would have to be; None for one that can be."""
-    if isinstance(value, np.ndarray):
-        return None if _is_within(value, most) else _limited(most, many=True)
     kind = type(value)
     if value is None or kind is bool or kind in _CHECKED:
         return None
-    if kind is int or (kind is not str and isinstance(value, Integral)):  # ABCs are slow
-        return None if abs(int(value)) <= MOST_INT else "less than 2^63"
-    if kind is not str and isinstance(value, Real):
-        number = float(value)
-        return None if abs(number) <= most else _limited(most, many=depth > 0)
+    if kind is float:  # as most are; the classes of numbers below are slow to ask
+        return None if abs(value) <= most else _limited(most, many=depth > 0)
     if isinstance(value, str | Path):
         return None if can_be_written(str(value)) else "text of characters"
+    if isinstance(value, np.ndarray):
+        return None if _is_within(value, most) else _limited(most, many=True)
+    if kind is int or isinstance(value, Integral):
+        return None if abs(int(value)) <= MOST_INT else "less than 2^63"
+    if isinstance(value, Real):
+        number = float(value)
+        return None if abs(number) <= most else _limited(most, many=depth > 0)
     if depth < _DEEPEST:
         inner = _inside(value)
         return next((f for each in inner if (f := _fault(each, most, depth + 1))), None)
@@ -273,9 +275,9 @@ def _fault_of(kind: str, value: Any) -> str | None:
     """Return what a value of an annotation would have to be, besides."""
     if value is None:  # in a sequence
         return None
-    rows = _ROWS.fullmatch(kind)
-    if rows and isinstance(value, tuple | list):
-        fault = next((f for each in value if (f := _fault_of(rows[1], each))), None)
+    row = _row_of(kind)
+    if row and isinstance(value, tuple | list):
+        fault = next((f for each in value if (f := _fault_of(row, each))), None)
         return fault and f"rows of {fault}"
     length = _length(kind)
     if length is not None:
@@ -292,6 +294,13 @@ def _fault_of(kind: str, value: Any) -> str | None:
 
 
 @functools.cache
+def _row_of(kind: str) -> str | None:
+    """Return the annotation of a row; None where it is not one of rows."""
+    rows = _ROWS.fullmatch(kind)
+    return rows and rows[1]
+
+
+@functools.cache
 def _length(kind: str) -> int | None:
     """Return the numbers in a value of an annotation; None where it is no vector."""
     row = _ROW.fullmatch(kind)
@@ -299,6 +308,8 @@ def _length(kind: str) -> int | None:
 
 
 def _is_floats(value: Any) -> bool:
+    if type(value) is tuple and all(type(each) is float for each in value):
+        return True
     try:
         array = np.asarray(value)
         if array.dtype.kind == "O":

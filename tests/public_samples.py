@@ -118,6 +118,7 @@ class Samples:
         self.called = ""
         self.stack = contextlib.ExitStack()
         self._making: list[type] = []
+        self._nodes = 0
 
     def __call__(self, name: str, annotation: str) -> Any:
         if name in BY_NAME and ("str" in annotation or annotation in ("", "Any") or name == "spec"):
@@ -207,6 +208,18 @@ class Samples:
         master = self.stack.enter_context(ros.Master(port=0))
         return self.stack.enter_context(ros.Node("sweeper", master_uri=master.uri))
 
+    def new_node(self) -> Any:
+        """Return another node of that graph, for what closes its node."""
+        self._nodes += 1
+        node = ros.Node(f"sweeper_{self._nodes}", master_uri=self.node.master_uri)
+        return self.stack.enter_context(node)
+
+    @functools.cached_property
+    def deployed(self) -> Any:
+        """A policy that may drive a robot."""
+        made = deploy.DeployNode(self.new_node(), TABLE["Policy"](self), deploy.SafetyLimits())
+        return self.stack.enter_context(made)
+
     @functools.cached_property
     def gazebo(self) -> Any:
         """A client of a world that is served, with a burger."""
@@ -291,6 +304,12 @@ def contract() -> envs.PolicyContract:
     return envs.PolicyContract(action=action, control_period=0.1)
 
 
+def _set_event() -> threading.Event:
+    event = threading.Event()
+    event.set()
+    return event
+
+
 TABLE: dict[str, Callable[[Samples], Any]] = {
     "Simulation": lambda s: s.stage.simulation if s.called in IN_THE_PLANE else s.simulation,
     "Node": lambda s: s.node,
@@ -350,6 +369,8 @@ TABLE: dict[str, Callable[[Samples], Any]] = {
     "Point": lambda s: (0.0, 1.0),
     "Octree": lambda s: Octree(0.1, b""),
     "Actor": lambda s: policy(),
+    "DeployNode": lambda s: s.deployed,
+    "Event": lambda s: _set_event(),
     "Policy": lambda s: deploy.Policy(policy(), contract()),
     "TriangleMesh": lambda s: triangles.box((1.0, 1.0, 1.0)),
     "PlanningScene": lambda s: planning.PlanningScene(arms.arm("fetch")),

@@ -17,13 +17,15 @@ import wrong_calls
 from wrong_calls import Findings
 from wrong_values import shown
 
-USED_BY = {"LiveView": "close", "SceneCamera": "look", "TopView": "look"}
+USED_BY = {"DeployNode": "close", "LiveView": "close", "SceneCamera": "look", "TopView": "look"}
 """Classes whose instances fail only when they are used, each with the method for that."""
 SMALL: dict[str, dict[str, Any]] = {
     **{key: {"size": (8, 6)} for key in ("SceneCamera", "TopView", "take_picture", "take_plan")},
     **{key: {"rate": 1.0} for key in ("film", "film_plan")},
 }
 """Arguments with which calls take less time."""
+CLOSING = {"DeployNode"}
+"""Classes whose instances close the node that they get first."""
 OF_THE_MACHINE = {"SimulatorProcess", "run_master"}
 """They start programs on the graph of this machine, which may be in use."""
 NOT_LOADED = {"GoToGoal"}
@@ -43,6 +45,8 @@ def sweep(package: str, only: str = "") -> Findings:
             attempts = () if inspect.isabstract(call) else _calls(name, call, good)
             for parameter, value, positional, named in attempts:
                 what = f"{name}({parameter}={shown(value)})"
+                if name in CLOSING and parameter != "node":
+                    positional[0] = good.new_node()
                 attempt = functools.partial(_use, name, call, positional, named)
                 findings.attempt(what, attempt, said, value)
             made = good.instance(call) if isinstance(call, type) else None

@@ -104,7 +104,7 @@ def test_a_path_that_no_file_can_have_is_refused(path):
         *({"poses": [Pose(), pose]} for pose in (Pose(z=math.nan), Pose(1e308))),
         *({"line": value} for value in ([()], [(0.0,)], [(0.0, 1.0), (0.0, 1.0, 2.0)])),
         *({"color": value} for value in ((1.0, 1.0), (1.0,) * 4, 0.5)),
-        *({"plain": Plain(math.nan)}, {"plain": JointAxis(xyz=(math.nan, 0.0, 0.0))}),
+        *({"plain": Plain(math.nan)}, {"plain": Plain(-math.inf)}),
     ],
 )
 def test_what_is_inside_of_an_argument_is_checked(wrong):

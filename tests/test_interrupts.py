@@ -184,6 +184,23 @@ def test_a_forked_child_has_the_handlers_of_before():
         assert process.stdout.read() == "-15 False\n"
 
 
+@pytest.mark.parametrize("package", ["gazelle", "gazelle_ros"])
+def test_an_import_ends_quietly(package):
+    """Ctrl-C comes while the command line is imported."""
+    script = f"""if True:
+        import os, signal, sys
+        class Finder:
+            def find_spec(self, name, *_):
+                if name == "{package}.cli.main":
+                    os.kill(os.getpid(), signal.SIGINT)
+        sys.meta_path.insert(0, Finder())
+        from {package}.__main__ import main
+        main()"""
+    command = [sys.executable, "-c", script]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (-signal.SIGINT, "")
+
+
 @pytest.mark.long
 def test_what_is_inside_a_library_for_long_ends_all_the_same():
     process = child(

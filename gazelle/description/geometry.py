@@ -9,11 +9,13 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from gazelle.description.nan_refusal import refuses_nan
 from gazelle.description.parameters import Parameters
 from gazelle.description.pose import Vector3
 from gazelle.description.source import Source
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Empty:
     """No shape at all: the element is there, but nothing collides or shows.
@@ -25,6 +27,7 @@ class Empty:
     file_lengths: tuple[float, ...] = field(default=(), compare=False, repr=False)
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Box:
     """A box centred at the origin; ``size`` is the full length along x, y, z [m]."""
@@ -33,6 +36,7 @@ class Box:
     file_lengths: tuple[float, ...] = field(default=(), compare=False, repr=False)
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Sphere:
     """A sphere centred at the origin."""
@@ -41,6 +45,7 @@ class Sphere:
     file_lengths: tuple[float, ...] = field(default=(), compare=False, repr=False)
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Cylinder:
     """A cylinder along z, centred at the origin."""
@@ -50,6 +55,7 @@ class Cylinder:
     file_lengths: tuple[float, ...] = field(default=(), compare=False, repr=False)
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Capsule:
     """A cylinder of ``length`` along z with half spheres at both ends, centred at the origin."""
@@ -59,6 +65,7 @@ class Capsule:
     file_lengths: tuple[float, ...] = field(default=(), compare=False, repr=False)
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Ellipsoid:
     """An ellipsoid centred at the origin; ``radii`` along x, y, z [m]."""
@@ -67,6 +74,7 @@ class Ellipsoid:
     file_lengths: tuple[float, ...] = field(default=(), compare=False, repr=False)
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Cone:
     """A cone along z, its apex up, centred at half its height."""
@@ -76,6 +84,7 @@ class Cone:
     file_lengths: tuple[float, ...] = field(default=(), compare=False, repr=False)
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Plane:
     """A plane through the origin: infinite as a collision, ``size`` [m] as a visual."""
@@ -84,6 +93,7 @@ class Plane:
     size: tuple[float, float] = (1.0, 1.0)
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Mesh:
     """A mesh in a file.
@@ -104,6 +114,7 @@ class Mesh:
     source: Source | None = field(default=None, compare=False, repr=False)
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Heightmap:
     """Terrain from a grey-scale image or a DEM file.
@@ -126,6 +137,7 @@ class Heightmap:
     source: Source | None = field(default=None, compare=False, repr=False)
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Image:
     """Boxes extruded from the dark pixels of an image.
@@ -148,6 +160,7 @@ class Image:
     source: Source | None = field(default=None, compare=False, repr=False)
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Polyline:
     """Closed outlines in the xy plane, extruded from z = 0 to ``height`` [m]."""

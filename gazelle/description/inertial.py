@@ -8,11 +8,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.argument_checks import checked
+from gazelle.description.nan_refusal import refuses_nan
 from gazelle.description.pose import Pose
 from gazelle.description.source import Source
 from gazelle.errors import FormatError
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Inertia:
     """Inertia tensor about the centre of mass, in the inertial frame [kg m²]."""
@@ -49,6 +51,7 @@ class Inertia:
         )
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Inertial:
     """Mass, centre of mass and inertia of a link.

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, field
 from typing import Literal
 
+from gazelle.description.nan_refusal import refuses_nan
 from gazelle.description.parameters import Parameters
 from gazelle.description.pose import Pose, Vector3
 from gazelle.description.sensor import Sensor
@@ -26,6 +27,7 @@ JointType = Literal[
 ]
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Mimic:
     """position = multiplier * (leader's position - reference) + offset.
@@ -45,6 +47,7 @@ class Mimic:
     reference: float = 0.0
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class SafetyController:
     """URDF's soft limits: ``k_velocity``, ``k_position`` and the soft range [m or rad]."""
@@ -55,6 +58,7 @@ class SafetyController:
     soft_upper_limit: float = 0.0
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class JointAxis:
     """One axis of motion.
@@ -91,6 +95,7 @@ class JointAxis:
     armature: float = 0.0
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class JointPhysics:
     """Engine terms of a joint (SDF ``<physics><ode>``); defaults are SDF 1.7's.
@@ -110,6 +115,7 @@ class JointPhysics:
     must_be_loop_joint: bool = False
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Joint:
     """A joint between two links of a model.

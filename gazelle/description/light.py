@@ -7,10 +7,12 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from gazelle.description.material import Color
+from gazelle.description.nan_refusal import refuses_nan
 from gazelle.description.pose import Pose, Vector3
 from gazelle.description.source import Source
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Attenuation:
     """Attenuation of light: 1 / (constant + linear r + quadratic r²), up to ``range`` [m]."""
@@ -21,6 +23,7 @@ class Attenuation:
     quadratic: float = 0.0
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Light:
     """A light.

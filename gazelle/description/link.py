@@ -8,6 +8,7 @@ from gazelle.description.geometry import Geometry
 from gazelle.description.inertial import Inertial
 from gazelle.description.light import Light
 from gazelle.description.material import Material
+from gazelle.description.nan_refusal import refuses_nan
 from gazelle.description.parameters import Parameters
 from gazelle.description.plugin import Plugin
 from gazelle.description.pose import Pose
@@ -16,6 +17,7 @@ from gazelle.description.source import Source
 from gazelle.description.surface import Surface
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Collision:
     """Collision shape of a link.
@@ -38,6 +40,7 @@ class Collision:
     source: Source | None = field(default=None, compare=False, repr=False)
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Visual:
     """Visual shape of a link.
@@ -68,6 +71,7 @@ class Visual:
     source: Source | None = field(default=None, compare=False, repr=False)
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Link:
     """A rigid body.

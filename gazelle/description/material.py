@@ -5,11 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from gazelle.description.nan_refusal import refuses_nan
 from gazelle.description.parameters import Parameters
 
 Color = tuple[float, float, float, float]
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Material:
     """Look of a surface; colours are (red, green, blue, alpha), each 0 to 1.

@@ -8,12 +8,14 @@ from dataclasses import dataclass, field
 from gazelle.description.content import FileContent
 from gazelle.description.joint import Joint
 from gazelle.description.link import Link
+from gazelle.description.nan_refusal import refuses_nan
 from gazelle.description.parameters import Parameters
 from gazelle.description.plugin import Plugin
 from gazelle.description.pose import Pose
 from gazelle.description.source import Source
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Frame:
     """A named frame.
@@ -30,6 +32,7 @@ class Frame:
     source: Source | None = field(default=None, compare=False, repr=False)
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Transmission:
     """URDF's ``<transmission>``: which actuator moves which joint through which interface.
@@ -56,6 +59,7 @@ class Transmission:
     source: Source | None = field(default=None, compare=False, repr=False)
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Model:
     """A model.

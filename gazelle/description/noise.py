@@ -5,9 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from gazelle.description.nan_refusal import refuses_nan
+
 NoiseType = Literal["none", "gaussian", "gaussian_quantized"]
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Noise:
     """Additive noise, in the unit of the channel it is on.

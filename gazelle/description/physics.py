@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from gazelle.description.nan_refusal import refuses_nan
 from gazelle.description.parameters import Parameters
 from gazelle.description.source import Source
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Ode:
     """Terms of ODE's solver, which Gazebo classic uses by default.
@@ -38,6 +40,7 @@ class Ode:
     contact_surface_layer: float = 0.001
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Physics:
     """A physics profile.

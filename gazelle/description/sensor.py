@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
+from gazelle.description.nan_refusal import refuses_nan
 from gazelle.description.noise import Noise
 from gazelle.description.parameters import Parameters
 from gazelle.description.plugin import Plugin
@@ -12,6 +13,7 @@ from gazelle.description.pose import Pose, Vector3
 from gazelle.description.source import Source
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Scan:
     """One fan of rays.
@@ -29,6 +31,7 @@ class Scan:
     max_angle: float = 0.0
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Lidar:
     """A laser range finder (SDF ``ray``, ``gpu_ray``, ``lidar``, ``gpu_lidar``).
@@ -58,6 +61,7 @@ class Lidar:
         return self.range_resolution if self.quantized else 0.0
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Imu:
     """An inertial measurement unit.
@@ -77,6 +81,7 @@ class Imu:
     enable_orientation: bool = True
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Camera:
     """A pinhole camera: x forward, y left, z up.
@@ -127,6 +132,7 @@ class ContactSensor:
     topic: str = ""
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Sensor:
     """A sensor on a link or joint.

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from gazelle.description.mappings import HoldsMappings
+from gazelle.description.nan_refusal import refuses_nan
 from gazelle.description.pose import Vector3
 from gazelle.description.source import Source
 from gazelle.errors import FormatError, did_you_mean
@@ -52,6 +53,7 @@ class JointGroup:
     source: Source | None = field(default=None, compare=False, repr=False)
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class JointGroupState(HoldsMappings):
     """A named posture of a group; ``joints`` holds the values of each joint [m or rad]."""
@@ -89,6 +91,7 @@ class DisabledCollision:
     reason: str = ""
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Semantics(HoldsMappings):
     """All that an SRDF file says of a robot.

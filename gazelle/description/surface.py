@@ -7,10 +7,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from gazelle.description.nan_refusal import refuses_nan
 from gazelle.description.parameters import Parameters
 from gazelle.description.pose import Vector3
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class TorsionalFriction:
     """Friction about the contact normal.
@@ -30,6 +32,7 @@ class TorsionalFriction:
     slip: float = 0.0
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Friction:
     """Coulomb friction in two directions.
@@ -51,6 +54,7 @@ class Friction:
     torsional: TorsionalFriction | None = None
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Contact:
     """Contact as a spring and damper, or as ODE's error reduction terms.
@@ -80,6 +84,7 @@ class Contact:
     collide_without_contact_bitmask: int = 1
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Bounce:
     """Restitution: coefficient, and the approach speed above which it acts [m/s]."""

@@ -9,6 +9,7 @@ from gazelle.description.joint import Joint
 from gazelle.description.light import Light
 from gazelle.description.material import Color
 from gazelle.description.model import Frame, Model
+from gazelle.description.nan_refusal import refuses_nan
 from gazelle.description.parameters import Parameters
 from gazelle.description.physics import Physics
 from gazelle.description.plugin import Plugin
@@ -16,6 +17,7 @@ from gazelle.description.pose import Pose, Vector3
 from gazelle.description.source import Source
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Scene:
     """The look of a world; ``extras`` (fog, clouds, ...) have no effect here and are kept."""
@@ -28,6 +30,7 @@ class Scene:
     extras: tuple[Parameters, ...] = field(default=(), hash=False)
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class SphericalCoordinates:
     """Position of the world's origin on Earth: degrees, metres; ``heading`` turns x from east."""
@@ -39,6 +42,7 @@ class SphericalCoordinates:
     heading: float = 0.0
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Atmosphere:
     """Air: temperature at sea level [K], its gradient [K/m], pressure at sea level [Pa]."""
@@ -49,6 +53,7 @@ class Atmosphere:
     pressure: float = 101325.0
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class World:
     """A world.

@@ -187,13 +187,27 @@ def test_a_bag_keeps_what_found_room(most, tmp_path):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("words", [["tasks"], ["msg", "show", "nav_msgs/Odometry"], ["worlds"]])
+@pytest.mark.parametrize(
+    "words",
+    [
+        *(["tasks"], ["msg", "show", "nav_msgs/Odometry"], ["worlds"]),
+        *(["--help"], ["--version"], ["train", "--help"]),
+    ],
+)
 def test_a_full_standard_output_is_one_error(words, tmp_path):
+    env = {name: text for name, text in os.environ.items() if name != "PYTHONUNBUFFERED"}
     with Path("/dev/full").open("w") as full:
-        done = gazelle(tmp_path, *words, stdout=full)
+        done = gazelle(tmp_path, *words, stdout=full, env=env)
     said = "gazelle: error: (the standard output: )?No space left on device\n  hint: .*\n"
     assert re.fullmatch(said, done.stderr)
     assert done.returncode == 1
+
+
+@pytest.mark.long
+def test_an_encoding_without_a_letter_shows_its_number(tmp_path):
+    done = gazelle(tmp_path, "plugins", most=-1, env=os.environ | {"PYTHONIOENCODING": "ascii"})
+    assert (done.returncode, done.stderr) == (0, "")
+    assert r"compliance \xb7 radius" in done.stdout
 
 
 @pytest.mark.long

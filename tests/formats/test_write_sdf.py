@@ -313,12 +313,12 @@ def test_what_has_lost_its_links_is_saved_as_static():
 
 def test_an_error_names_the_place_the_part_came_from():
     source = Source("robot.sdf", 7, "model[@name='m']/link[@name='l']")
-    inertial = Inertial(1.0, inertia=Inertia(math.nan, 1.0, 1.0))
+    inertial = Inertial(1.0, inertia=Inertia(math.inf, 1.0, 1.0))
     with pytest.raises(FormatError) as caught:
         formats.to_string(Model("m", links=(Link("l", inertial=inertial, source=source),)), "sdf")
     assert (caught.value.file, caught.value.line) == ("robot.sdf", 7)
-    with pytest.raises(FormatError, match=r"link\[@name='l'\].*nan"):
-        formats.to_string(Model("m", links=(Link("l", velocity_decay_linear=math.nan),)), "sdf")
+    with pytest.raises(FormatError, match=r"link\[@name='l'\].*finite"):
+        formats.to_string(Model("m", links=(Link("l", Pose(math.inf)),)), "sdf")
 
 
 @pytest.mark.parametrize(
@@ -360,7 +360,7 @@ def test_by_code_descriptions_need_no_kept_elements():
 
 
 def test_a_file_is_whole_or_not_there(tmp_path):
-    bad = Model("m", links=(Link("l", Pose(math.nan)),))
+    bad = Model("m", links=(Link("l", Pose(math.inf)),))
     with pytest.raises(FormatError):
         formats.save(bad, tmp_path / "m.sdf")
     with pytest.raises(FormatError, match="cannot be written"):

@@ -76,7 +76,7 @@ WRONG = {
     "run for nan s": lambda s: s.run(NAN),
     "run for -1.0 s": lambda s: s.run(-1.0, rate=1.0),
     "run for inf s": lambda s: s.run(math.inf),
-    "pose of model 'x' must be finite": lambda s: s.spawn(scenes.ball("x"), pose=Pose(NAN)),
+    "pose of model 'x' must be finite": lambda s: s.spawn(scenes.ball("x"), pose=Pose(math.inf)),
     "cannot be called 'a::b'": lambda s: s.spawn(scenes.ball("x"), name="a::b"),
     "worlds must be": lambda s: s.attach(link(s), s.robots["arm"].links["b"], worlds=[5]),
     "must be 6 numbers": lambda s: link(s).set_properties(inertia=(1, 1, 1)),

@@ -97,7 +97,7 @@ def test_gravity_can_change_in_flight():
 def test_impossible_laws_change_nothing():
     engine = make(scenes.ball())
     with pytest.raises(EngineError, match="finite"):
-        engine.update_world(replace(engine.world, gravity=(0.0, np.nan, 0.0)))
+        engine.update_world(replace(engine.world, gravity=(0.0, np.inf, 0.0)))
     profile = replace(engine.world.profile, max_step_size=0.0)
     with pytest.raises(EngineError, match="positive"):
         engine.update_world(replace(engine.world, physics=(profile,)))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import contextlib
 import errno
 import io
@@ -26,6 +27,7 @@ from gazelle_ros.process_name import call_process
 from gazelle_ros.tool_names import process_name, translated
 
 DONE, FAILED, WRONG_USAGE = 0, 1, 2
+_ANY_TEXT = "gazelle.any_text"
 _FULL = {errno.ENOSPC, errno.EFBIG, getattr(errno, "EDQUOT", errno.ENOSPC)}
 _NO_ROOM = "free some space, or name a place with more"
 _NO_MEMORY = (
@@ -84,11 +86,9 @@ def _main(argv: Sequence[str] | None, program: CommandLine) -> int:
     arguments = translated(sys.argv[1:] if argv is None else argv)
     arguments, debug = _without_debug(arguments)
     if not arguments or arguments[0] in {"-h", "--help", "help"}:
-        sys.stdout.write(overview(program))
-        return DONE
+        return _run(program, lambda: _show(overview(program)), debug=debug)
     if arguments[0] in {"-V", "--version"}:
-        sys.stdout.write(f"{program.name} {program.version}\n")
-        return DONE
+        return _run(program, lambda: _show(f"{program.name} {program.version}\n"), debug=debug)
     command = program.commands.get(arguments[0])
     if command is None:
         _complain(
@@ -97,8 +97,16 @@ def _main(argv: Sequence[str] | None, program: CommandLine) -> int:
         return WRONG_USAGE
     if argv is None:
         call_process(process_name(arguments))
+    # A script is given the signals of a fresh process, as Python has them.
+    alone = arguments[0] == "exec"
+    signals = nullcontext() if alone else interruptible(ends_process=argv is None)
     with _one_line_warnings(show_all=debug), program.prepared():
-        code = _run(program, command, arguments[1:], debug=debug, own=argv is None)
+        code = _run(
+            program,
+            lambda: _call(program, command, arguments[1:], debug=debug),
+            signals,
+            debug=debug,
+        )
     if requested():
         end_process(code)
     return code
@@ -118,9 +126,18 @@ def _open_streams() -> bool:
     sys.stdin = sys.stdin or open(0, encoding="utf-8", closefd=False)  # noqa: SIM115
     sys.stdout = sys.stdout or open(1, "w", encoding="utf-8", closefd=False)  # noqa: SIM115
     sys.stderr = sys.stderr or open(2, "w", encoding="utf-8", closefd=False)  # noqa: SIM115
-    if isinstance(sys.stdout, io.TextIOWrapper):  # names of files may be any bytes
-        sys.stdout.reconfigure(errors="surrogateescape")
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        codecs.register_error(_ANY_TEXT, _encoded_somehow)
+        sys.stdout.reconfigure(errors=_ANY_TEXT)
     return there
+
+
+def _encoded_somehow(error: UnicodeError) -> tuple[str | bytes, int]:
+    """Encode names of files, which may be any bytes, and what the terminal's encoding lacks."""
+    try:
+        return codecs.lookup_error("surrogateescape")(error)
+    except UnicodeError:
+        return codecs.backslashreplace_errors(error)
 
 
 def _without_debug(arguments: list[str]) -> tuple[list[str], bool]:
@@ -162,15 +179,16 @@ def overview(program: CommandLine) -> str:
 
 
 def _run(
-    program: CommandLine, command: Command, arguments: list[str], *, debug: bool, own: bool
+    program: CommandLine,
+    call: Callable[[], int],
+    signals: AbstractContextManager[None] | None = None,
+    *,
+    debug: bool,
 ) -> int:
-    """Run one sub-command; any error becomes a message and an exit code."""
+    """Make a call; any error becomes a message and an exit code."""
     try:
-        # A script is given the signals of a fresh process, as Python has them.
-        with (
-            contextlib.nullcontext() if command.name == "exec" else interruptible(ends_process=own)
-        ):
-            return _call(program, command, arguments, debug=debug)
+        with signals or nullcontext():
+            return call()
     except SystemExit as stop:
         return stop.code if isinstance(stop.code, int) else FAILED
     except KeyboardInterrupt as request:
@@ -178,8 +196,7 @@ def _run(
         return exit_code(request)
     except BrokenPipeError:
         # The reader of our output is gone, as in `gazelle tasks | head`.
-        with contextlib.suppress(OSError):
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _discard_output()
         return DONE
     except Exception as error:  # noqa: BLE001  # the last resort: a user sees no traceback
         if debug:
@@ -189,12 +206,36 @@ def _run(
 
 
 def _call(program: CommandLine, command: Command, arguments: list[str], *, debug: bool) -> int:
-    parsed = command_parser(program, command).parse_args(arguments)
+    try:
+        parsed = command_parser(program, command).parse_args(arguments)
+    except SystemExit:  # after `--help`
+        _flush()
+        raise
     parsed.debug = debug
     code = command.load().run(parsed)
-    with naming("the standard output"):
-        sys.stdout.flush()
+    _flush()
     return code
+
+
+def _show(text: str) -> int:
+    with naming("the standard output"):
+        sys.stdout.write(text)
+    _flush()
+    return DONE
+
+
+def _flush() -> None:
+    try:
+        with naming("the standard output"):
+            sys.stdout.flush()
+    except OSError:
+        _discard_output()  # else the interpreter tries once more at its end
+        raise
+
+
+def _discard_output() -> None:
+    with contextlib.suppress(OSError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def command_parser(program: CommandLine, command: Command) -> Parser:
