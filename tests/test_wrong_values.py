@@ -196,8 +196,10 @@ MEASURED = {
     ),
 }
 """Records of what was measured, which may be NaN; users of those check it."""
-READ = {"AirPressure", "GoalPose", "Pose", "Sonar", "TreeJoint", "TreeJoint.placed", "World"}
-"""Records of what a file said; engines and sensors check it."""
+COMPUTED = {"PlacedModel", "Pose", "Pose.exactly", "TreeJoint", "TreeJoint.placed"}
+"""Poses, which also come from worlds that diverged, where NaN is the answer; descriptions take none."""
+REFUSED_BY_PORT = {"GoalPose"}
+"""Values that messages hold too; the port they are sent to refuses what is not finite."""
 LOOP = "catch_up|measure|noisy|on_update|read|set_goal|starting|stopping|update|write"
 PILOT = "angles|arm|blocked|go_to|set_odometry|set_scan|tick"
 TIMED = re.compile(rf"\w+\.({LOOP}|{PILOT})")
@@ -211,7 +213,7 @@ OF_ONE_WORLD = {
 
 def takes_nan(call):
     """Return whether a call may take NaN."""
-    known = MEASURED | READ | OF_ONE_WORLD
+    known = MEASURED | COMPUTED | REFUSED_BY_PORT | OF_ONE_WORLD
     return call in known or TIMED.fullmatch(call) is not None
 
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Atmosphere, Noise, Parameters, Pose
+from gazelle.description.nan_refusal import refuses_nan
 from gazelle.engines import Engine
 from gazelle.errors import SimulationError
 from gazelle.formats.sdf.noise import read_noise
@@ -116,6 +117,7 @@ class AltimeterModel(NoisySensor):
         self._reference[:] = state["reference"]
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class AirPressure:
     """Settings of a barometer.

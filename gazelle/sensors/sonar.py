@@ -10,6 +10,7 @@ import numpy as np
 from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Noise, Parameters, Pose
+from gazelle.description.nan_refusal import refuses_nan
 from gazelle.engines import Engine
 from gazelle.errors import FormatError, SimulationError
 from gazelle.formats.sdf.noise import read_noise
@@ -21,6 +22,7 @@ _RINGS, _RAYS_A_RING = 6, 6
 _SPHERE_RAYS = 400
 
 
+@refuses_nan
 @dataclass(frozen=True, slots=True)
 class Sonar:
     """Settings of a sonar.
