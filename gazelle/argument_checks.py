@@ -243,7 +243,7 @@ def _limited(most: float, *, many: bool) -> str:
 
 
 def _inside(value: Any) -> Iterable[Any]:
-    """Return what a value consists of, as far as it has to be checked."""
+    """Return the items of a container that have to be checked too."""
     if isinstance(value, tuple | list):
         return value
     if isinstance(value, Mapping):

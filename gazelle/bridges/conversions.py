@@ -300,7 +300,7 @@ def decoder_of(kind: type[Any]) -> Decoder:
 
 
 def service_of(request: type[Any] | None, response: type[Any] | None) -> ServiceCodec:
-    """Return the codec of a kind of service.
+    """Return the codec of a service type, by the classes of its request and response.
 
     Raises:
         RosError: No function is registered; see ``add_service``.

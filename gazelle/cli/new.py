@@ -29,8 +29,12 @@ _FILES = {"task.py": "{}.py", "robot.urdf": "{}.urdf", "test.py": "test_{}.py"}
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("kind", choices=["task", "control"], metavar="task|control", help="what")
-    parser.add_argument("name", metavar="NAME", help="of the task, or the robot's URDF or xacro")
+    parser.add_argument(
+        "kind", choices=["task", "control"], metavar="task|control", help="template to write"
+    )
+    parser.add_argument(
+        "name", metavar="NAME", help="name of the task, or the robot's URDF or xacro"
+    )
     parser.add_argument(
         "--out", metavar="DIR", type=Path, default=Path(), help="folder (default: this one)"
     )

@@ -101,7 +101,7 @@ class PhysicsCalls:
 
     @property
     def gravity(self) -> Vector:
-        """[m/s²]."""
+        """Gravity [m/s²]."""
         return self.physics.gravity
 
     @gravity.setter

@@ -121,7 +121,7 @@ class ActuatorStateInterface(HardwareInterface):
 
     @property
     def position(self) -> Floats:
-        """[m or rad], shape (nworld, actuators)."""
+        """Position [m or rad], shape (nworld, actuators)."""
         joints = self._states.position
         return self._side_by_side(
             [law.actuator_position(joints[:, at]) for law, at in self._drives]
@@ -129,7 +129,7 @@ class ActuatorStateInterface(HardwareInterface):
 
     @property
     def velocity(self) -> Floats:
-        """[m/s or rad/s], shape (nworld, actuators)."""
+        """Velocity [m/s or rad/s], shape (nworld, actuators)."""
         joints = self._states.velocity
         return self._side_by_side(
             [law.actuator_velocity(joints[:, at]) for law, at in self._drives]
@@ -137,7 +137,7 @@ class ActuatorStateInterface(HardwareInterface):
 
     @property
     def effort(self) -> Floats:
-        """[N or N m], shape (nworld, actuators)."""
+        """Effort [N or N m], shape (nworld, actuators)."""
         joints = self._states.effort
         return self._side_by_side([law.actuator_effort(joints[:, at]) for law, at in self._drives])
 
@@ -169,15 +169,15 @@ class ActuatorHandles:
 
     @property
     def position(self) -> Floats:
-        """[m or rad], shape (nworld, n)."""
+        """Position [m or rad], shape (nworld, n)."""
         return self._states.position[:, self._columns]
 
     @property
     def velocity(self) -> Floats:
-        """[m/s or rad/s], shape (nworld, n)."""
+        """Velocity [m/s or rad/s], shape (nworld, n)."""
         return self._states.velocity[:, self._columns]
 
     @property
     def effort(self) -> Floats:
-        """[N or N m], shape (nworld, n)."""
+        """Effort [N or N m], shape (nworld, n)."""
         return self._states.effort[:, self._columns]

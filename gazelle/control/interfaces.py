@@ -96,7 +96,7 @@ class JointStateInterface(HardwareInterface):
 
     @property
     def position(self) -> Floats:
-        """[m or rad], shape (nworld, joints)."""
+        """Position [m or rad], shape (nworld, joints)."""
         return self._arrays["position"]
 
     @position.setter
@@ -105,7 +105,7 @@ class JointStateInterface(HardwareInterface):
 
     @property
     def velocity(self) -> Floats:
-        """[m/s or rad/s], shape (nworld, joints)."""
+        """Velocity [m/s or rad/s], shape (nworld, joints)."""
         return self._arrays["velocity"]
 
     @velocity.setter
@@ -114,7 +114,7 @@ class JointStateInterface(HardwareInterface):
 
     @property
     def effort(self) -> Floats:
-        """[N or N m], shape (nworld, joints)."""
+        """Effort [N or N m], shape (nworld, joints)."""
         return self._arrays["effort"]
 
     @effort.setter
@@ -205,12 +205,12 @@ class JointHandles:
 
     @property
     def position(self) -> Floats:
-        """[m or rad], shape (nworld, joints)."""
+        """Position [m or rad], shape (nworld, joints)."""
         return self.states.position[:, self.columns]
 
     @property
     def velocity(self) -> Floats:
-        """[m/s or rad/s], shape (nworld, joints)."""
+        """Velocity [m/s or rad/s], shape (nworld, joints)."""
         return self.states.velocity[:, self.columns]
 
     @property

@@ -176,8 +176,7 @@ def read_options(settings: type[Settings], options: Mapping[str, Any]) -> Settin
     """Convert keyword arguments to checked settings.
 
     Raises:
-        TaskError: There is no option of that name (the hint names the closest), or a value
-            cannot be.
+        TaskError: An option is unknown (the hint names the closest), or a value is invalid.
     """
     known = [field.name for field in fields(settings)]
     for name in options:

@@ -108,7 +108,7 @@ def brightened(color: Color) -> Color:
 
 
 def with_urdf_color(material: Material, color: Color) -> Material:
-    """Return the material with a URDF's colour, if it has none but that of its script."""
+    """Return the material with a URDF's colour, unless it sets a colour besides its script's."""
     shown = with_script_colors(material)
     return replace(
         shown,

@@ -90,12 +90,12 @@ class JointModelGroup:
 
     @property
     def max_velocity(self) -> Floats:
-        """[m/s or rad/s], infinite by default, shape (n,)."""
+        """Max velocity [m/s or rad/s], infinite by default, shape (n,)."""
         return np.array([variable.bounds.velocity for variable in self.variables])
 
     @property
     def max_acceleration(self) -> Floats:
-        """[m/s² or rad/s²], infinite by default, shape (n,)."""
+        """Max acceleration [m/s² or rad/s²], infinite by default, shape (n,)."""
         return np.array([variable.bounds.acceleration for variable in self.variables])
 
     def named(self, state: str) -> Mapping[str, float]:

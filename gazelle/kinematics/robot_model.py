@@ -175,10 +175,10 @@ class RobotModel:
         return self._made(name, joints, tuple(ordered), (tip,), base)
 
     def group_of(self, joints: Iterable[str], name: str) -> JointModelGroup:
-        """Return a group of some joints, without an SRDF.
+        """Return a planning group of some joints, without an SRDF.
 
         Raises:
-            PlanningError: A joint is not there.
+            PlanningError: The robot has no joint of that name.
         """
         chosen = {self.variables[self.column(joint)].joint for joint in joints}
         links = [joint.child for joint in self.joints.values() if joint.name in chosen]

@@ -21,9 +21,9 @@ from gazelle.planning.constraints import rotation_vector
 from gazelle.planning.limits import checked_poses, checked_steps
 
 DEVIATION = 0.001
-"""[m]."""
+"""Greatest distance from the straight path [m]."""
 TURN = 0.01
-"""[rad]."""
+"""Greatest deviation in rotation [rad]."""
 _TURN_PER_METRE = 3.5
 _HALVINGS = 5
 _FLOOR = 1e-5

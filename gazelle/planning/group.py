@@ -55,7 +55,7 @@ class GroupPlan:
 
     @property
     def duration(self) -> float:
-        """[s]."""
+        """Duration [s]."""
         return self.plan.trajectory.duration
 
     def start(self) -> Execution:

@@ -79,7 +79,7 @@ class TimedPath:
 
     @property
     def duration(self) -> float:
-        """[s]."""
+        """Duration [s]."""
         return float(self.times[-1])
 
     def slower(self, factor: float) -> TimedPath:

@@ -393,7 +393,7 @@ class Ports:
 
     @checked(SimulationError, after=True)
     def back_to(self, mark: tuple[Mapping[str, Any], ...]) -> None:
-        """Close everything that was opened since."""
+        """Close all ports that were opened after a mark was taken."""
         for table, before in zip(self._tables(), mark, strict=True):
             table.clear()
             table.update(before)

@@ -207,7 +207,7 @@ class Robot(Ports):
     @property
     @between_steps
     def position(self) -> Floats:
-        """[m], shape (nworld, 3)."""
+        """Position [m], shape (nworld, 3)."""
         return self.placement().position
 
     @property

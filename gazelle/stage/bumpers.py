@@ -46,7 +46,12 @@ def find_bumps(around: Surroundings, robot: int, which: int, world: int) -> tupl
 
 
 def gaps_to(strip: Floats, lines: Floats) -> Floats:
-    """Return the distance of a segment, shape (2, 2), to others x0, y0, x1, y1 [m], shape (n,)."""
+    """Return the distances of a segment to others [m], shape (n,).
+
+    Args:
+        strip: Ends of the segment, shape (2, 2).
+        lines: The others: x0, y0, x1, y1, shape (n, 4).
+    """
     starts, ends = lines[:, :2], lines[:, 2:]
     gaps = np.minimum(
         np.minimum(_to_segments(strip[0], starts, ends), _to_segments(strip[1], starts, ends)),

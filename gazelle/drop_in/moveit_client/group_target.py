@@ -120,7 +120,7 @@ class GroupTarget:
         return True
 
     def _put(self, values: Mapping[str, float]) -> None:
-        """Set variables, and what follows them."""
+        """Set variables, and the joints that mimic them."""
         for name, value in values.items():
             self.state[self._robot.column(name)] = value
         self.state = self._robot.complete(self.state)

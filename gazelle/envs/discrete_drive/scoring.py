@@ -64,7 +64,13 @@ def has_crashed(rules: DriveRules, ranges: NDArray[Any], seen: NDArray[Any]) -> 
 
 
 def ends_of(rules: DriveRules, crashed: Bools, place: Floats) -> DriveEnds:
-    """Return why episodes end: crashed, shape (n,), or by x and y as observed [m], shape (n, 2)."""
+    """Return the reasons why episodes end.
+
+    Args:
+        rules: Parameters of the task.
+        crashed: Whether a robot has crashed, shape (n,).
+        place: Observed x and y [m], shape (n, 2).
+    """
     outside, reached = np.zeros((2, len(crashed)), np.bool_)
     if rules.goal is not None:
         reached = is_at(place, rules.goal, rules.tolerance)

@@ -17,9 +17,9 @@ class GoalPlace:
     """A place to go to."""
 
     x: float
-    """[m]"""
+    """Goal, x [m]"""
     y: float
-    """[m]"""
+    """Goal, y [m]"""
     frame: str = ""
     """Of the place; empty for that of the odometry."""
 

@@ -29,7 +29,7 @@ class ScanReading:
     """One turn of a lidar, as sensor_msgs/LaserScan has it."""
 
     ranges: Floats
-    """[m], shape (rays,); +inf nothing in range, -inf too near, NaN failed (REP 117)."""
+    """Ranges [m], shape (rays,); +inf nothing in range, -inf too near, NaN failed (REP 117)."""
     angle_min: float
     """Angle of the first ray, left positive [rad]."""
     angle_increment: float
@@ -66,11 +66,11 @@ class OdometryReading:
     """Pose and velocity of a robot, as in nav_msgs/Odometry."""
 
     x: float
-    """[m]"""
+    """X [m]"""
     y: float
-    """[m]"""
+    """Y [m]"""
     yaw: float
-    """[rad], in [-pi, pi]"""
+    """Yaw [rad], in [-pi, pi]"""
     forward: float = 0.0
     """Speed [m/s]."""
     turning: float = 0.0

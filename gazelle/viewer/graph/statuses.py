@@ -40,7 +40,7 @@ class Arrivals:
         self._times: deque[float] = deque(maxlen=_WINDOW)
 
     def add(self) -> None:
-        """Add one now."""
+        """Record the arrival of a message, now."""
         with self._lock:
             self.count += 1
             self._times.append(self._clock())

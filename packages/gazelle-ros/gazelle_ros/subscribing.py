@@ -305,7 +305,7 @@ def _maker(message_class: Any) -> Callable[[], Any]:
 
 
 def _converted(message: Any, kind: Any, link: Any) -> Any:
-    """Return a message in the form of one of a node's subscribers: decoded, or as bytes."""
+    """Return a message as its subscriber wants it: decoded, or as bytes."""
     data = message._buff if isinstance(message, RawMessage) else frame(message)[4:]
     made = _maker(kind)()
     made.deserialize(data)
