@@ -26,8 +26,11 @@ class Named(Mapping[str, T]):
 
     def __getitem__(self, name: str) -> T:
         try:
-            return self._items[self._own(name)]
+            return self._items[name]
         except KeyError:
+            own = self._own(name)
+            if own in self._items:
+                return self._items[own]
             raise UnknownNameError(
                 f"there is no {self._kind} '{name}'", hint=did_you_mean(name, self._items)
             ) from None

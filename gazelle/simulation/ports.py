@@ -105,7 +105,7 @@ class TwistInput(StatePart):
         count = size_of(some, len(self.linear))
         forward, turning = self._checked(linear, count), self._checked(angular, count)
         for command, values, axis in ((self.linear, forward, 0), (self.angular, turning, 2)):
-            if values.shape[-1:] == (3,) and (values.ndim > 1 or count == 1):
+            if values.ndim > 1 or (count == 1 and values.shape == (3,)):
                 command[rows] = values
             else:
                 command[rows] = 0.0
@@ -123,8 +123,10 @@ class TwistInput(StatePart):
         # One pass finds that all are finite; squares of very large ones are not.
         if not math.isfinite(np.vdot(values, values)) and not np.isfinite(values).all():
             raise SimulationError(f"the command on '{self.topic}' is not finite: {values}")
+        if values.shape == (count,):
+            return values
         vectors = values.shape in ((count, 3), (1, 3)) or (values.shape == (3,) and count == 1)
-        if not vectors and values.shape not in ((), (1,), (count,)):
+        if not vectors and values.shape not in ((), (1,)):
             worlds = "" if count == 1 else f", one for each of {count} worlds"
             raise SimulationError(
                 f"the command on '{self.topic}' must be a number{worlds}, or three, not of "

@@ -24,6 +24,8 @@ class WorldBatch(batch.Batch):  # type: ignore[misc]  # MuJoCo has no types
             groups: Whether geoms of a group are met, shape (groups,).
             worlds: Worlds; all if None.
         """
-        ids = batch._ids(worlds, self.nsim)  # noqa: SLF001  its own
+        ids = None if worlds is None else batch._ids(worlds, self.nsim)  # noqa: SLF001  its own
         arrays = rays.start, rays.along, groups, True, rays.passed
-        self._check(ids, self._b.ray(ids, *arrays, rays.distance, rays.geom, rays.normal))
+        failed = self._b.ray(ids, *arrays, rays.distance, rays.geom, rays.normal)
+        if failed:
+            self._check(ids, failed)
