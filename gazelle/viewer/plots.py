@@ -130,7 +130,8 @@ def plot_paths(paths: Mapping[str, Floats], grid: OccupancyMap | None, file: Pat
 def draw_lines(axes: Any, lines: Series, horizontal: str, vertical: str) -> None:
     """Draw lines into one panel."""
     for number, (name, (x, y)) in enumerate(lines.items()):
-        axes.plot(x, y, _STYLES[number % len(_STYLES)], label=name, linewidth=1.5)
+        style = "o" if len(x) == 1 else _STYLES[number % len(_STYLES)]  # one point has no line
+        axes.plot(x, y, style, label=name, linewidth=1.5)
     axes.set_xlabel(horizontal)
     axes.set_ylabel(vertical)
     axes.grid(alpha=0.3)

@@ -99,6 +99,15 @@ def test_trainings_are_drawn_side_by_side(tmp_path):
     assert "control steps" in out.read_text() or "<path" in out.read_text()
 
 
+def test_a_training_of_one_update_is_a_point(tmp_path):
+    (tmp_path / "progress.csv").write_text("time/steps,episodes/return\n1000,-5.0\n")
+    out = tmp_path / "point.png"
+    assert main(["plot", str(tmp_path), str(out)]) == 0
+    with Image.open(out) as picture:
+        colors = np.asarray(picture.convert("RGB"), int)
+    assert (colors[..., 2] > colors[..., 0] + 80).sum() > 10
+
+
 def test_columns_of_a_table(tmp_path):
     (tmp_path / "t.csv").write_text("wall,rtf,note\n0,1.0,a\n1,0.5,b\n")
     assert main(["plot", str(tmp_path / "t.csv"), str(tmp_path / "t.png")]) == 0
