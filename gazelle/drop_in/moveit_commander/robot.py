@@ -117,7 +117,7 @@ class RobotCommander:
     get_root_link = get_robot_root_link
 
     def get_planning_frame(self) -> str:
-        """Return the frame that is planned in."""
+        """Return the name of the planning frame."""
         return self._robot.frame
 
     def get_group_names(self) -> list[str]:

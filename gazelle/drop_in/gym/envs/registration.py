@@ -73,7 +73,7 @@ class EnvRegistry:
         self.env_specs: dict[str, EnvSpec] = {}
 
     def register(self, id: str, **options: Any) -> None:  # noqa: A002  # gym's name for it
-        """Register an environment, in place of one of its name.
+        """Register an environment; one with the same id is replaced.
 
         Args:
             id: Its name.

@@ -133,7 +133,7 @@ class cb_interface:  # noqa: N801  # smach's name
         self._declared = outcomes, input_keys, output_keys
 
     def __call__(self, cb: Callable[..., Any]) -> CBInterface:
-        """Declare them for a function."""
+        """Declare the outcomes and userdata keys of a function."""
         return CBInterface(cb, *self._declared)
 
 
