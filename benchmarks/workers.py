@@ -20,7 +20,7 @@ from gazelle.training.actor import Actor
 from gazelle.training.learners import build_learner
 from gazelle.training.threads import limit_threads
 from gazelle.training.vecenv import VectorEnvAdapter
-from gazelle.training.workers import Blueprint, Team, divided
+from gazelle.training.workers import ShardSpec, WorkerGroup, divided
 from gazelle.training.workers.clusters import connect, start_actors
 from gazelle.training.workers.processes import start_processes
 
@@ -44,7 +44,9 @@ def policy(inputs: int, actions: int) -> Actor:
     )
 
 
-def measured(team: Team, copies: int, windows: int) -> tuple[float, dict[int, object], Actor]:
+def measured(
+    team: WorkerGroup, copies: int, windows: int
+) -> tuple[float, dict[int, object], Actor]:
     """Control steps a second at best, the last rollouts, the policy."""
     spaces = team.spaces()
     actor = policy(int(np.prod(spaces.observation.shape)), int(spaces.action.n))
@@ -112,7 +114,7 @@ def main() -> None:
 def compared(engine: str, *, ray: bool, windows: int) -> tuple[float, float, float]:
     """Compare one worker and two: steps a second, megabytes, seconds to pack and unpack."""
     task, copies = TASKS[engine]
-    blueprint = Blueprint(task=task, sizes=divided(copies), options={"engine": engine})
+    blueprint = ShardSpec(task=task, sizes=divided(copies), options={"engine": engine})
     print(f"{task}, {engine}, {copies} worlds, rollouts of {STEPS} steps, best of {windows}")
     rates = {}
     for workers in (1, 2):
@@ -121,7 +123,7 @@ def compared(engine: str, *, ray: bool, windows: int) -> tuple[float, float, flo
             connect("local")
             ways["Ray actor"] = start_actors(blueprint)
         for way, start in ways.items():
-            team = Team(start, len(blueprint.sizes), workers)
+            team = WorkerGroup(start, len(blueprint.sizes), workers)
             try:
                 rates[way, workers], found, actor = measured(team, copies, windows)
                 states = team.states

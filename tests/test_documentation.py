@@ -66,7 +66,7 @@ def test_a_tutorial_works_as_typed(page, tmp_path):
             env={
                 **os.environ,
                 "PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}",
-                "ROS_MASTER_URI": f"http://localhost:{free_port()}",
+                "ROS_MASTER_URI": f"http://127.0.0.1:{free_port()}",
                 "TMPDIR": folder,
             },
             stdout=subprocess.PIPE,

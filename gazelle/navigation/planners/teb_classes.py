@@ -58,7 +58,7 @@ class PassedObstacles:
         """Return the obstacles of a grid and of shapes.
 
         Args:
-            obstacles: That stand.
+            obstacles: Standing obstacles.
             gap: Cells less than twice this apart are one obstacle [m].
             moving: Obstacles that move.
             across: Direction in which a band passes beside them.
@@ -110,7 +110,7 @@ def paths_of_classes(
     Args:
         start: Pose of the robot.
         goal: End of the paths.
-        passed: Obstacles by which classes are told apart.
+        passed: Obstacles that separate the classes.
         obstacles: Distances, of which paths keep ``min_obstacle_dist``.
         settings: Of the planner.
         rng: Draws the points.

@@ -43,7 +43,7 @@ class _TopicImages:
         return self._wanted if chosen == _NONE else chosen
 
     def follow(self, kinds: Mapping[str, str]) -> None:
-        """Offer topics, by name with type, and subscribe to the chosen one."""
+        """List topics, by name with type, and subscribe to the chosen one."""
         if tuple(self._topic.options) != (_NONE, *kinds):
             self._topic.options = (_NONE, *kinds)
         if self._wanted in kinds:
