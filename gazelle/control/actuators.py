@@ -15,13 +15,12 @@ from gazelle.control.transmissions import (
     LinearTransmission,
     SimpleTransmission,
 )
-from gazelle.description import Transmission
+from gazelle.description import TRANSMISSION_WIDTHS, Transmission
 from gazelle.errors import ControlError, did_you_mean
 
 ACTUATOR_STATE = "hardware_interface/ActuatorStateInterface"
 
 _PREFIX = "transmission_interface/"
-_WIDTHS = {"SimpleTransmission": 1, "DifferentialTransmission": 2, "FourBarLinkageTransmission": 2}
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,12 +49,12 @@ def drive_of(transmission: Transmission) -> ActuatorDrive:
             that cannot be, or a reduction of zero.
     """
     kind = transmission.type.removeprefix(_PREFIX)
-    width = _WIDTHS.get(kind)
+    width = TRANSMISSION_WIDTHS.get(_PREFIX + kind)
     if width is None:
         raise ControlError(
             f"transmission '{transmission.name}' is of the type '{transmission.type}', which is not known",
             source=transmission.source,
-            hint=did_you_mean(_PREFIX + kind, [_PREFIX + each for each in _WIDTHS]),
+            hint=did_you_mean(_PREFIX + kind, TRANSMISSION_WIDTHS),
         )
     if len(transmission.joints) != width or len(transmission.actuators) != width:
         raise ControlError(

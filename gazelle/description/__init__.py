@@ -33,7 +33,7 @@ from gazelle.description.joint import (
 from gazelle.description.light import Attenuation, Light
 from gazelle.description.link import Collision, Link, Visual
 from gazelle.description.material import Color, Material
-from gazelle.description.model import Frame, Model, PlacedModel, Transmission
+from gazelle.description.model import TRANSMISSION_WIDTHS, Frame, Model, PlacedModel, Transmission
 from gazelle.description.noise import Noise, NoiseType
 from gazelle.description.occupancy import OccupancyMap
 from gazelle.description.parameters import Parameters
@@ -54,6 +54,7 @@ from gazelle.description.surface import Bounce, Contact, Friction, Surface, Tors
 from gazelle.description.world import Atmosphere, Scene, SphericalCoordinates, World
 
 __all__ = [
+    "TRANSMISSION_WIDTHS",
     "Atmosphere",
     "Attenuation",
     "Bounce",

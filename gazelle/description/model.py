@@ -32,6 +32,14 @@ class Frame:
     source: Source | None = field(default=None, compare=False, repr=False)
 
 
+TRANSMISSION_WIDTHS = {
+    "transmission_interface/SimpleTransmission": 1,
+    "transmission_interface/DifferentialTransmission": 2,
+    "transmission_interface/FourBarLinkageTransmission": 2,
+}
+"""Types of transmissions that ros_control has, with the number of their joints."""
+
+
 @refuses_nan
 @dataclass(frozen=True, slots=True)
 class Transmission:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from gazelle.description import Box, Capsule, Cone, Cylinder, Ellipsoid, Parameters, Sphere
+from gazelle.description import Box, Capsule, Cone, Cylinder, Ellipsoid, Parameters, Sphere, Vector3
 from gazelle.formats import values
 from gazelle.formats.limits import LONGEST
 from gazelle.formats.reading import Reading
@@ -31,6 +31,15 @@ def extent(node: Parameters, value: float, what: str, reading: Reading) -> float
     taken = _taken(value)
     reading.fault(f"{what} must be greater than zero, found {value:g}: {taken:g} was taken", node)
     return taken
+
+
+def scale(node: Parameters, written: Vector3, reading: Reading) -> Vector3:
+    """Return the scale of a mesh; a zero in it is reported and kept, as it makes the mesh flat."""
+    if 0.0 in written:
+        numbers = " ".join(f"{each:g}" for each in written)
+        text = f"the scale of a mesh must not be zero, found {numbers}: the mesh has no volume"
+        reading.fault(text, node, "1 leaves a side as it is in the file")
+    return written
 
 
 def replaced(*lengths: float) -> tuple[float, ...]:

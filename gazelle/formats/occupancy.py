@@ -94,6 +94,7 @@ def read_map(file: Path, reading: Reading) -> OccupancyMap:
     """
     nodes = _read_nodes(xml.read_bytes(file), str(file), reading)
     settings = _read_settings(nodes)
+    _check_thresholds(settings, nodes, reading)
     picture = reading.resolver.find(settings.image, file.parent)
     if picture is None or not picture.is_file():
         looked = characters.curly_hint(settings.image) or reading.resolver.looked_in(
@@ -263,6 +264,17 @@ def _read_settings(nodes: dict[str, _Node]) -> MapSettings:
         free_thresh=nodes["free_thresh"].number(),
         mode=_mode(nodes.get("mode")),
     )
+
+
+def _check_thresholds(settings: MapSettings, nodes: dict[str, _Node], reading: Reading) -> None:
+    low, high = settings.free_thresh, settings.occupied_thresh
+    if low > high:
+        reading.remark(
+            f"free_thresh {low:g} is above occupied_thresh {high:g}: "
+            "cells in between are occupied, and none is unknown",
+            nodes["free_thresh"].source,
+            "swap the two",
+        )
 
 
 def _mode(node: _Node | None) -> Mode:

@@ -92,6 +92,13 @@ def test_a_joint_without_a_transmission_is_told_in_both_files(tmp_path, judge):
     assert told.line is not None
 
 
+def test_an_unknown_type_of_transmission_is_told_once(tmp_path, judge):
+    judge(GOOD, replace={"SimpleTransmission": "SimpleTransmision"})
+    (told,) = [each for each in check(tmp_path / "arm.urdf") if each.rule == "transmission-type"]
+    assert "'transmission_interface/SimpleTransmission'" in told.hint
+    assert told.line is not None
+
+
 @pytest.mark.parametrize(
     ("config", "robot"),
     [

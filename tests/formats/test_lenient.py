@@ -114,7 +114,7 @@ def test_the_size_of_a_plane(written, taken):
 
 @pytest.mark.parametrize(
     ("written", "taken"),
-    [("0.001", (0.001,) * 3), ("2 3", (2, 3, 1)), ("1 2 3 4", (1, 2, 3))],
+    [("0.001", (0.001,) * 3), ("2 3", (2, 3, 1)), ("1 2 3 4", (1, 2, 3)), ("1 0 1", (1, 0, 1))],
 )
 def test_the_scale_of_a_mesh(written, taken, tmp_path):
     (tmp_path / "a.stl").write_bytes(bytes(84))

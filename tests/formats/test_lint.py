@@ -117,6 +117,7 @@ def other(name="b"):
             Joint("j", "revolute", "l", "b", axes=(JointAxis(mimic=Mimic("jj")),)),
             ["mimic-leader"],
         ),
+        (Joint("j", "revolute", "l", "b", axes=(JointAxis(mimic=Mimic("j")),)), ["mimic-cycle"]),
         (Joint("j", "revolute", "l", "b", axes=(JointAxis(),)), []),
     ],
 )

@@ -171,6 +171,16 @@ def test_unknown_keys_are_named(tmp_path):
         load_map(file)
 
 
+def test_thresholds_in_the_wrong_order_are_named(tmp_path):
+    file = saved(tmp_path, [[80, 120]])  # between the thresholds
+    file.write_text(file.read_text().replace("0.196", "0.9"))
+    with pytest.warns(
+        FormatWarning, match=r"m.yaml:6: .*free_thresh 0.9 is above occupied_thresh 0.65"
+    ):
+        found = load_map(file)
+    assert found.data.tolist() == [[100, 0]]
+
+
 @pytest.mark.parametrize("text", ["", "a", "[1, 2]", "[" * 5000, "a: &a [*a]", "\x00", "a: \udcff"])
 def test_any_text_is_a_map_or_an_error(tmp_path, text):
     file = tmp_path / "m.yaml"

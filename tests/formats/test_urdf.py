@@ -294,16 +294,26 @@ def test_errors_name_file_line_and_element(body, line, element, reason):
     assert caught.value.element == f"robot[@name='r']{element}"
 
 
+def limited(limits):
+    """Return a joint with limits, and its child."""
+    joint = f"<joint name='j' type='continuous'><parent link='a'/><child link='b'/><limit {limits}/></joint>"
+    return urdf_link("b") + joint
+
+
 @pytest.mark.parametrize(
     ("body", "reason"),
     [
         ("<gazebo reference='x'><mu1>1</mu1></gazebo>", "refers to 'x'"),
         ("<gazebo reference='a'><mu>1</mu></gazebo>", "<mu> in a <gazebo> is not supported"),
+        ("<material name='m'><texture filename='no.png'/></material>", "texture 'no.png' is not"),
+        (limited("effort='-1' velocity='1'"), "effort limit is below zero, -1: no limit"),
+        (limited("effort='1' velocity='-2'"), "velocity limit is below zero, -2: no limit"),
     ],
 )
-def test_extensions_that_mean_nothing_are_named(body, reason):
-    with pytest.warns(FormatWarning, match=reason):
+def test_what_means_nothing_is_named_once(body, reason):
+    with pytest.warns(FormatWarning, match=reason) as caught:
         urdf(urdf_link("a") + body)
+    assert len(caught) == 1
 
 
 lengths = st.floats(-2, 2)

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from gazelle.description import Joint, JointAxis, JointPhysics, Model, World
 from gazelle.errors import did_you_mean
 from gazelle.formats.lint.diagnostic import Diagnostic
+from gazelle.kinematics.mimics import leaders_of, mimic_cycle
 
 
 def lint(world: World) -> Iterator[Diagnostic]:
@@ -110,13 +111,24 @@ def _axis(name: str, joint: Joint, axis: JointAxis) -> Iterator[Diagnostic]:
 
 
 def _mimic(name: str, joint: Joint, axis: JointAxis, model: Model) -> Iterator[Diagnostic]:
+    if axis.mimic is None:
+        return
     known = {other.name for other in model.joints}
-    if axis.mimic is not None and axis.mimic.joint not in known:
+    if axis.mimic.joint not in known:
         yield Diagnostic(
             "mimic-leader",
             f"joint '{name}' mimics '{axis.mimic.joint}', which is not there",
             "it will not move",
             did_you_mean(axis.mimic.joint, known),
+            joint.source,
+        )
+    circle = mimic_cycle(joint.name, leaders_of((each.name, each) for each in model.joints))
+    if circle:
+        yield Diagnostic(
+            "mimic-cycle",
+            f"joint '{name}' mimics itself: {' -> '.join(circle)}",
+            "none of these joints leads, so nothing can say where they are",
+            "let one of them mimic no other",
             joint.source,
         )
 

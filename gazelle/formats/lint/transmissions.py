@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from gazelle.description import Joint, Model, World
+from gazelle.description import TRANSMISSION_WIDTHS, Joint, Model, World
 from gazelle.errors import did_you_mean
 from gazelle.formats.lint.diagnostic import Diagnostic
 
@@ -18,6 +18,7 @@ def lint(world: World) -> Iterator[Diagnostic]:
         yield from _unknown_joints(model)
         if any(_PLUGIN in plugin.filename for plugin in model.plugins):
             yield from _left_out(model)
+            yield from _unknown_types(model)
 
 
 def _unknown_joints(model: Model) -> Iterator[Diagnostic]:
@@ -33,6 +34,20 @@ def _unknown_joints(model: Model) -> Iterator[Diagnostic]:
                     did_you_mean(name, known),
                     each.source,
                 )
+
+
+def _unknown_types(model: Model) -> Iterator[Diagnostic]:
+    """Yield types that ros_control has no transmission of, each once."""
+    known = {*TRANSMISSION_WIDTHS, *(each.rpartition("/")[2] for each in TRANSMISSION_WIDTHS)}
+    for kind, each in {each.type: each for each in reversed(model.transmissions)}.items():
+        if kind not in known:
+            yield Diagnostic(
+                "transmission-type",
+                f"transmission '{each.name}' is of the type '{kind}', which ros_control does not have",
+                "a simulated robot runs without it, but the hardware of a real one does not load it",
+                did_you_mean(kind, TRANSMISSION_WIDTHS),
+                each.source,
+            )
 
 
 def _rolls(joint: Joint) -> bool:

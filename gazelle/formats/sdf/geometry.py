@@ -23,7 +23,7 @@ from gazelle.description import (
     Vector3,
 )
 from gazelle.formats import values
-from gazelle.formats.extent import extent, replaced
+from gazelle.formats.extent import extent, replaced, scale
 from gazelle.formats.reading import Reading
 
 
@@ -120,7 +120,7 @@ def read_mesh(node: Parameters, reading: Reading) -> Mesh:
     return Mesh(
         uri=uri,
         path=reading.find(uri, place),
-        scale=values.vector(node, "scale", (1.0, 1.0, 1.0)),
+        scale=scale(node, values.vector(node, "scale", (1.0, 1.0, 1.0)), reading),
         submesh=values.word(node, "submesh/name") or None,
         center_submesh=values.flag(node, "submesh/center", default=False),
         source=place.source,

@@ -24,7 +24,7 @@ from gazelle.description import (
 )
 from gazelle.errors import FormatError, did_you_mean
 from gazelle.formats import values
-from gazelle.formats.extent import extent, replaced
+from gazelle.formats.extent import extent, replaced, scale
 from gazelle.formats.reading import Reading
 
 _MOMENTS = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
@@ -137,7 +137,7 @@ def read_mesh(node: Parameters, reading: Reading) -> Mesh:
     return Mesh(
         uri=uri,
         path=reading.find(uri, node),
-        scale=values.attribute_vector(node, "scale", (1.0, 1.0, 1.0)),
+        scale=scale(node, values.attribute_vector(node, "scale", (1.0, 1.0, 1.0)), reading),
         source=node.source,
     )
 
@@ -196,5 +196,13 @@ def read_paint(node: Parameters, reading: Reading) -> Paint:
             written = color.attributes["rgba"]
             text = f"a colour has values from 0 to 1, found '{written}'"
             reading.note(text, color, "divide them by 255")
-    uri = "" if texture is None else texture.attributes.get("filename", "")
-    return Paint(rgba, reading.find(uri, node, required=False) if uri else None)
+    return Paint(rgba, None if texture is None else _texture(texture, reading))
+
+
+def _texture(node: Parameters, reading: Reading) -> Path | None:
+    uri = node.attributes.get("filename", "")
+    found = reading.find(uri, node, required=False) if uri else None
+    if uri and found is None:
+        looked = reading.resolver.looked_in(uri, reading.folder)
+        reading.note(f"the texture '{uri}' is not found: the colour is used", node, looked)
+    return found

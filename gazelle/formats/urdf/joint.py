@@ -99,8 +99,8 @@ def read_axis(node: Parameters, kind: JointType, reading: Reading) -> JointAxis:
         xyz=direction(xyz, axis or node, reading),
         lower=lower,
         upper=upper,
-        effort=_endless(limit, "effort"),
-        velocity=_endless(limit, "velocity"),
+        effort=_endless(limit, "effort", reading),
+        velocity=_endless(limit, "velocity", reading),
         damping=0.0 if dynamics is None else values.attribute_real(dynamics, "damping", 0.0),
         friction=0.0 if dynamics is None else values.attribute_real(dynamics, "friction", 0.0),
         mimic=_mimic(node.find("mimic")),
@@ -124,11 +124,18 @@ def _reach(value: float) -> float:
     return math.copysign(math.inf, value) if abs(value) >= values.INFINITE else value
 
 
-def _endless(limit: Parameters | None, name: str) -> float:
+def _endless(limit: Parameters | None, name: str, reading: Reading) -> float:
     if limit is None:
         return math.inf
     value = _reach(values.attribute_real(limit, name))
-    return math.inf if value < 0.0 else value
+    if value >= 0.0:
+        return value
+    reading.note(
+        f"the {name} limit is below zero, {value:g}: no limit was taken",
+        limit,
+        "give the greatest magnitude, which holds in both directions",
+    )
+    return math.inf
 
 
 def _mimic(node: Parameters | None) -> Mimic | None:

@@ -218,6 +218,16 @@ def test_a_mimic_with_nothing_to_follow_is_an_error_with_its_place(leader, axis,
         engine_of(joint("lead", "revolute", "a", "b", X), follow, links=("a", "b", "c"))
 
 
+def test_joints_that_mimic_each_other_are_an_error_with_its_place():
+    source = Source("robot.sdf", 5, "joint")
+    joints = [
+        Joint(a, "revolute", "a", b, axes=(JointAxis(X, mimic=Mimic(c)),), source=source)
+        for a, b, c in (("j", "b", "k"), ("k", "c", "j"))
+    ]
+    with pytest.raises(EngineError, match=r"robot.sdf:5: .*itself: m::j -> m::k -> m::j"):
+        engine_of(*joints, links=("a", "b", "c"))
+
+
 def four_bar(closing):
     """Return a parallelogram in the xz plane: ground a, cranks b and d, coupler c."""
     links = (
