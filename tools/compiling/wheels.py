@@ -4,8 +4,8 @@
     python tools/compiling/wheels.py dist x86_64-linux-gnu.2.17    # of one platform
 
 They are built from a source distribution, which is made first. Each serves Python 3.11 and all
-later versions, as modules use the stable ABI. Those for macOS, Windows and aarch64 are built but
-cannot be run here.
+later versions, as modules use the stable ABI. Those for macOS and Windows are built but cannot be
+run here; `.ci/fresh_machine` runs that for aarch64 in an emulator.
 """
 
 from __future__ import annotations
