@@ -195,13 +195,16 @@ MEASURED = {
         "TrajectoryProgress",
     ),
 }
-"""Records of what was measured, which may be NaN; users of those check it."""
+"""Records of what was measured, which may be NaN; users of those check it.
+
+``PhysicsSettings`` is what Gazebo answers; a scan with NaN favours no pose.
+"""
 COMPUTED = {"PlacedModel", "Pose", "Pose.exactly", "TreeJoint", "TreeJoint.placed"}
 """Poses, which also come from worlds that diverged, where NaN is the answer; descriptions take none."""
 REFUSED_BY_PORT = {"GoalPose"}
 """Values that messages hold too; the port they are sent to refuses what is not finite."""
-LOOP = "catch_up|measure|noisy|on_update|read|set_goal|starting|stopping|update|write"
-PILOT = "angles|arm|blocked|go_to|set_odometry|set_scan|tick"
+LOOP = "catch_up|measure|noisy|on_update|read|starting|stopping|update|write"
+PILOT = "angles|arm|blocked|set_odometry|set_scan|tick"
 TIMED = re.compile(rf"\w+\.({LOOP}|{PILOT})")
 """Steps of a loop, which are called with its clock's time."""
 OF_ONE_WORLD = {

@@ -27,6 +27,8 @@ from gazelle.geometry.mesh_data import MeshData
 
 CACHED = 256
 
+_AGAIN = "export or download the file again"
+
 
 @dataclass(frozen=True, slots=True)
 class MeshPart:
@@ -144,21 +146,30 @@ def _parse_cached(_: str, content: _Content) -> tuple[MeshPart, ...]:
     data, path = content.data or b"", content.path
     content.data = None  # the cache keeps the key, and need not keep the file
     if not data:
-        raise FormatError(
-            "the file is empty", file=str(path), hint="export or download the file again"
-        )
+        raise FormatError("the file is empty", file=str(path), hint=_AGAIN)
     refuse_pointer(data, path)
     try:
         parts = [part for part in _parse(data, path) if len(part.faces)]
     except FormatError:
         raise
-    except Exception as error:  # mesh libraries raise anything on a broken file
+    except (ImportError, MemoryError) as error:
         raise FormatError(f"{type(error).__name__}: {error}", file=str(path)) from error
+    except Exception as error:  # mesh libraries raise anything on a broken file
+        raise _damaged(path) from error
     if not parts:
         raise FormatError("the file holds no triangle", file=str(path))
     for part in parts:
         _check(part, path)
     return tuple(parts)
+
+
+def _damaged(path: Path) -> FormatError:
+    text = f"this is no {path.suffix.lower().lstrip('.').upper()} file, or a damaged one"
+    if path.suffix.lower() == ".gltf":  # its buffers are often files of their own
+        return FormatError(
+            f"{text}, or it needs files beside it", file=str(path), hint="export it as .glb"
+        )
+    return FormatError(text, file=str(path), hint=_AGAIN)
 
 
 def _check(part: MeshPart, path: Path) -> None:

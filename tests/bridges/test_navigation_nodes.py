@@ -210,11 +210,19 @@ def test_a_goal_without_a_plan_is_aborted_with_the_known_words(room, move_base, 
     assert text == "Failed to find a valid plan. Even after executing recovery behaviors."
 
 
-def test_a_quaternion_that_is_none_is_refused(room, move_base, client):
-    client.send_goal(goal_message(2.5, 2.0, w=0.0))
+@pytest.mark.parametrize(
+    ("goal", "reason"),
+    [
+        ((2.5, 2.0, 0.0), "it was sent with an invalid quaternion"),
+        ((math.nan, 2.0, 1.0), "its position is not finite"),
+    ],
+)
+def test_a_goal_without_meaning_is_refused(room, move_base, client, goal, reason):
+    x, y, w = goal
+    client.send_goal(goal_message(x, y, w=w))
     state, text = carry_out(room, move_base, client)
     assert state == GoalStatus.ABORTED
-    assert text == "Aborting on goal because it was sent with an invalid quaternion"
+    assert text == f"Aborting on goal because {reason}"
 
 
 def test_a_cancelled_goal_is_preempted_and_the_robot_stands(room, move_base, client):

@@ -81,6 +81,18 @@ def test_damaged_stl_files_are_errors_that_say_what_to_do(data, message):
     assert "export or download" in caught.value.hint
 
 
+@pytest.mark.parametrize("kind", ["glb", "ply"])
+def test_damaged_files_of_other_kinds_are_errors_in_plain_words(kind, tmp_path):
+    data = BOX.export(file_type=kind)
+    file = tmp_path / f"a.{kind}"
+    for end in range(1, len(data) - 1, max(1, len(data) // 23)):
+        file.write_bytes(data[:end])
+        with pytest.raises(FormatError) as caught:
+            load_parts(file)
+        assert caught.value.hint
+        assert "Error" not in caught.value.message
+
+
 @pytest.mark.parametrize(
     ("text", "area"),
     [

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from gazelle.errors import Error
 from gazelle.navigation.costmap import Costmap, footprint_of
 from gazelle.navigation.move_base import GoalOutcome, MoveBase, MoveBaseSettings, RobotState
 from gazelle.navigation.move_base.recovery import RecoveryBehavior, RotateRecovery, make_recovery
@@ -71,6 +72,16 @@ def ran(finds, recoveries, seconds=60.0, **settings):
         if step.outcome is not None:
             return begun, (step.outcome, step.text, round(time, 1)), moved
     return begun, None, moved
+
+
+@pytest.mark.parametrize(
+    ("goal", "time"), [((1.0, math.nan, 0.0), 0.0), ((1.0, 0.0, 0.0), math.nan)]
+)
+def test_a_goal_of_nan_is_refused(goal, time):
+    law = MoveBase(MoveBaseSettings(), Planner(), Controller(None), [])
+    with pytest.raises(Error, match="finite"):
+        law.set_goal(goal, time)
+    assert law.goal is None
 
 
 def test_recoveries_follow_each_other_at_once_when_there_is_no_velocity():

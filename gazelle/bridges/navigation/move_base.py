@@ -20,6 +20,7 @@ from gazelle.bridges.navigation.messages import (
     wrong_quaternion,
 )
 from gazelle.bridges.navigation.planner_topics import PlannerTopics
+from gazelle.errors import Error
 from gazelle.navigation.following import Pose2
 from gazelle.navigation.move_base import GoalOutcome, RobotState, navigation_stack
 from gazelle.navigation.move_base.state_machine import MoveStep
@@ -158,24 +159,27 @@ class MoveBaseNode:
                 return
             fault = wrong_quaternion(goal.target_pose.pose.orientation)
             if fault is not None:
-                self._law.cancel()
-                server.set_aborted(
-                    None, "Aborting on goal because it was sent with an invalid quaternion"
-                )
-                self._drive(STOP)
+                self._abort("it was sent with an invalid quaternion")
                 return
             found = self._in_whole(goal.target_pose)
             if found is None:
-                self._law.cancel()
-                server.set_aborted(None, "Aborting on goal because its frame is not known")
-                self._drive(STOP)
+                self._abort("its frame is not known")
                 return
-            self._law.set_goal(found, now / SECOND)
+            try:
+                self._law.set_goal(found, now / SECOND)
+            except Error:
+                self._abort("its position is not finite")
+                return
             self._current.publish(stamped(found, self.stack.whole.costmap.frame, now))
         if server.is_active() and server.is_preempt_requested():
             self._law.cancel()
             server.set_preempted()
             self._drive(STOP)
+
+    def _abort(self, reason: str) -> None:
+        self._law.cancel()
+        self._server.set_aborted(None, f"Aborting on goal because {reason}")
+        self._drive(STOP)
 
     def _in_whole(self, target: geometry_msgs.msg.PoseStamped) -> Pose2 | None:
         """Convert a ``PoseStamped`` to the frame of the global costmap; None if unknown."""

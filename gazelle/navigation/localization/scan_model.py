@@ -19,6 +19,8 @@ from gazelle.navigation.localization.settings import AmclSettings
 class PlanarScan:
     """Planar laser scan.
 
+    As drivers deliver it, so nothing is refused: with NaN in it a scan favours no pose.
+
     Attributes:
         ranges: [m], shape (n,); infinite or NaN for nothing.
         angles: Of its beams in its frame [rad], shape (n,).

@@ -124,8 +124,13 @@ class MoveBase:
         self._recovery_index = 0
         self._running: RecoveryBehavior | None = None
 
+    @checked(Error)
     def set_goal(self, goal: Pose2, time: float) -> None:
-        """Set a goal in the global costmap's frame."""
+        """Set a goal in the global costmap's frame.
+
+        Raises:
+            Error: A number is not finite.
+        """
         self.goal = goal
         self.phase = Phase.PLANNING
         self._trigger, self._recovery_index, self._running = _Trigger.PLANNING, 0, None

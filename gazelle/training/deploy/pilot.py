@@ -115,6 +115,7 @@ class Pilot:
         """Store odometry, in the frame of the goals."""
         self._odometry = (now, odometry)
 
+    @checked(TaskError)
     def go_to(self, goals: Iterable[GoalPlace], now: float) -> GoalResult | None:
         """Set these goals; returns the result of the previous one, if there is one."""
         ended = None if self.goal is None else self._end("replaced", now)

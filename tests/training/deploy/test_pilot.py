@@ -251,6 +251,12 @@ def test_a_lidar_that_is_turned_by_no_angle_is_refused(straight_on, turned):
         Pilot(open_policy(straight_on), SafetyLimits(), turned=turned)
 
 
+def test_a_time_of_nan_is_refused(pilot):
+    with pytest.raises(TaskError, match="'now' must be a finite number"):
+        pilot.go_to([GoalPlace(1.0, 0.0)], math.nan)
+    assert not pilot.outcomes
+
+
 @pytest.mark.parametrize("text", ["1,2\n3,4", "", '"', "1", "nan,1", "1e400,1"])
 def test_a_text_that_is_no_goal(text):
     with pytest.raises(ValueError, match="is no goal"):
