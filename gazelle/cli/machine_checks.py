@@ -34,6 +34,9 @@ EXTRAS = {
 PORTS = {11311: "gazelle master --port 0", 9090: "gazelle bridge --port 0"}
 """Usual ports of a ROS master and of rosbridge, and the commands that take a free one."""
 
+MASTER_TIMEOUT_S = 1.0
+"""A ROS master on this machine answers within this time [s]."""
+
 
 class Grade(Enum):
     """Result of a check."""
@@ -197,10 +200,26 @@ def ports() -> Iterator[Finding]:
             try:
                 sock.bind(("127.0.0.1", port))
             except OSError as error:
-                text = f"{port} is taken: {error.strerror}"
-                yield Finding(Grade.NOTE, "ports", text, f"{command}   # or end who has it")
+                yield _taken_port(port, error.strerror or str(error), command)
             else:
                 yield Finding(Grade.OK, "ports", f"{port} is free")
+
+
+def _taken_port(port: int, reason: str, command: str) -> Finding:
+    """Return the finding about a port that a ROS master or another program has."""
+    from gazelle_ros.errors import RosError
+    from gazelle_ros.master.proxy import MasterProxy
+
+    master = MasterProxy(f"http://127.0.0.1:{port}", "/doctor", MASTER_TIMEOUT_S)
+    try:
+        process = master.get_pid()
+    except (RosError, ValueError):
+        text = f"{port} is taken: {reason}"
+        return Finding(Grade.NOTE, "ports", text, f"{command}   # or end the program that has it")
+    finally:
+        master.close()
+    text = f"{port}: a ROS master runs here, process {process}; nodes will use it"
+    return Finding(Grade.OK, "ports", text)
 
 
 def disks() -> Iterator[Finding]:

@@ -13,8 +13,10 @@ that was stopped. Ctrl-C and SIGTERM save a checkpoint first.
 from __future__ import annotations
 
 import argparse
+import shlex
 import signal
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -32,7 +34,7 @@ from gazelle_ros.cli.parsing import (
 )
 
 if TYPE_CHECKING:
-    from gazelle.training import TrainResult
+    from gazelle.training import Recipe, TrainResult
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -97,7 +99,6 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Run the command; returns the exit code."""
     _check(args)
-    sys.stderr.write(f"loading {args.task or args.resume or args.sweep} ...\n")
     if args.sweep is not None:
         return _sweep(args)
     return report(_begin(args) if args.resume is None else _resume(args))
@@ -107,15 +108,18 @@ def _begin(args: argparse.Namespace) -> TrainResult:
     """Train from scratch."""
     from gazelle.training import choose_progress, task_recipe, with_values
 
+    _require_task(args)
     options = environment_options(args)
     own = task_recipe(args.task, args.algo, imports=args.imports, options=options)
     recipe = with_values(own, dict(args.values))
-    steps, copies = args.steps or recipe.steps, args.num_envs or recipe.num_envs
+    planned = replace(
+        recipe, steps=args.steps or recipe.steps, num_envs=args.num_envs or recipe.num_envs
+    )
     seed = args.seed or 0
     engine = {**recipe.training_options, **options}.get("engine")
     where = "" if engine is None else f", engine {engine}"
     sys.stderr.write(
-        f"{recipe.algo}: {steps:,} control steps, {copies} copies, seed {seed}{where}\n"
+        f"{recipe.algo}: {_steps(planned)}, {planned.num_envs} copies, seed {seed}{where}\n"
     )
     from gazelle.training import train  # imports torch, which takes seconds
 
@@ -142,8 +146,8 @@ def _resume(args: argparse.Namespace) -> TrainResult:
     from gazelle.training import Run, choose_progress
 
     config = Run.open(args.resume).config
-    steps = args.steps or config.recipe.steps
-    sys.stderr.write(f"{config.task}, {config.recipe.algo}: to {steps:,} control steps\n")
+    planned = replace(config.recipe, steps=args.steps or config.recipe.steps)
+    sys.stderr.write(f"{config.task}, {planned.algo}: to {_steps(planned)}\n")
     from gazelle.training import resume  # imports torch, which takes seconds
 
     return resume(
@@ -159,12 +163,16 @@ def _resume(args: argparse.Namespace) -> TrainResult:
 
 def _sweep(args: argparse.Namespace) -> int:
     """Search hyperparameters; returns the exit code."""
-    from gazelle.training.sweep import sweep
     from gazelle.training.sweep_plan import SweepPlan
+
+    _require_task(args)
+    plan = SweepPlan.read(args.sweep)
+    sys.stderr.write(f"{args.task}: {plan.trials} trials in all\n")
+    from gazelle.training.sweep import sweep  # imports torch, which takes seconds
 
     found = sweep(
         args.task,
-        SweepPlan.read(args.sweep),
+        plan,
         out=args.out or Path("runs"),
         imports=tuple(args.imports),
         workers=args.workers,
@@ -181,6 +189,24 @@ def _sweep(args: argparse.Namespace) -> int:
     return 0
 
 
+def _require_task(args: argparse.Namespace) -> None:
+    """Raise an error for an unknown task, before anything slow."""
+    from gazelle.training.importing import load_all
+    from gazelle.training.tasks import find_task
+
+    load_all(args.imports)
+    find_task(args.task)
+
+
+def _steps(recipe: Recipe) -> str:
+    """Return the control steps of a training, and the reason if they are more than it was given."""
+    text = f"{recipe.rounded_steps:,} control steps"
+    if recipe.rounded_steps == recipe.steps:
+        return text
+    size = f"{recipe.num_envs} x {recipe.rollout_steps or 1}"
+    return f"{text} ({recipe.steps:,} rounded up to whole rollouts of {size})"
+
+
 def _short(value: object) -> str:
     return f"{value:.4g}" if isinstance(value, float) else str(value)
 
@@ -188,12 +214,14 @@ def _short(value: object) -> str:
 def report(result: TrainResult) -> int:
     """Print what came out and what to type next; returns the exit code."""
     folder = result.run.folder
-    trust = " --trust" if result.run.config.imports else ""
+    imports = "".join(
+        f" --import {shlex.quote(module.text())}" for module in result.run.config.imports
+    )
     if result.interrupted:
         total = result.run.config.recipe.steps
         sys.stderr.write(
             f"stopped at {result.steps:,} of {total:,} steps; everything is saved\n"
-            f"  go on with: {showing.program()} train --resume {folder}{trust}\n"
+            f"  go on with: {showing.program()} train --resume {folder}{imports}\n"
         )
         return 128 + (result.stop_signal or signal.SIGINT)
     if not result.new_steps:
@@ -205,7 +233,7 @@ def report(result: TrainResult) -> int:
         sys.stdout.write(f"trained: {showing.training(result, indent=9)}\n")
     sys.stdout.write(
         f"the run: {folder}\n"
-        f"next:    {showing.program()} eval {folder}{trust}\n"
+        f"next:    {showing.program()} eval {folder}{imports}\n"
         f"         tensorboard --logdir {folder}\n"
     )
     return 0

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
+import os
 import sys
 import warnings
 from collections.abc import Iterable, Mapping
@@ -68,6 +69,14 @@ class TaskModule:
                 hint=did_you_mean(top, near) if near else "go to its folder, or install it",
             )
         return TaskModule(text)
+
+    def text(self) -> str:
+        """Return a text from which `find` makes this module: its name, or its file."""
+        if self.folder is None or ("." in self.name and Path(self.folder) == Path.cwd()):
+            return self.name
+        path = Path(self.folder).joinpath(*self.name.split("."))
+        file = path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
+        return os.path.relpath(file) if file.is_relative_to(Path.cwd()) else str(file)
 
     def is_loaded(self) -> bool:
         """Return True if this process has imported it, from its folder where it has one."""

@@ -209,6 +209,22 @@ class Recipe:
         check_supported(self.algo, self)
         _check_settings(self.algo, self.settings)
 
+    @property
+    def rollout_steps(self) -> int | None:
+        """Control steps of each copy between two updates; None if the library decides."""
+        if isinstance(self.settings, PPOSettings):
+            return self.settings.n_steps
+        if isinstance(self.settings, OffPolicySettings):
+            return self.settings.train_freq
+        given = self.settings.options.get("n_steps")
+        return given if isinstance(given, int) else None
+
+    @property
+    def rounded_steps(self) -> int:
+        """Control steps that a training does: ``steps``, rounded up to whole rollouts of all copies."""
+        rollout = self.num_envs * (self.rollout_steps or 1)
+        return -(-self.steps // rollout) * rollout
+
 
 def _check_settings(algo: str, settings: Settings) -> None:
     """Check that settings are those of an algorithm, and that it takes notice of them."""

@@ -2,6 +2,7 @@
 
 import importlib.metadata
 import importlib.util
+import os
 import shutil
 import socket
 
@@ -12,6 +13,7 @@ from gazelle.cli.machine_checks import EXTRAS, Grade, examine
 from gazelle.cli.main import main
 from gazelle.engines import mujoco
 from gazelle.errors import EngineError
+from gazelle_ros import Master
 
 VARIABLES = (
     *("ROS_MASTER_URI", "ROS_HOSTNAME", "ROS_IP", "ROS_PACKAGE_PATH"),
@@ -98,9 +100,19 @@ def test_a_taken_port(monkeypatch):
         other.listen()
         port = other.getsockname()[1]
         monkeypatch.setattr(machine_checks, "PORTS", {port: "gazelle master --port 0"})
+        monkeypatch.setattr(machine_checks, "MASTER_TIMEOUT_S", 0.1)
         found = finding("ports")
     assert found.grade is Grade.NOTE
     assert found.text.startswith(f"{port} is taken")
+
+
+def test_a_port_of_a_master(monkeypatch):
+    with Master(port=0, rosout=False) as master:
+        port = int(master.uri.rstrip("/").rpartition(":")[2])
+        monkeypatch.setattr(machine_checks, "PORTS", {port: "gazelle master --port 0"})
+        (found,) = machine_checks.ports()
+    assert found.grade is Grade.OK
+    assert found.text.startswith(f"{port}: a ROS master runs here, process {os.getpid()}")
 
 
 def test_a_full_disk(monkeypatch):

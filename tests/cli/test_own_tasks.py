@@ -165,7 +165,9 @@ def test_a_module_is_found_by_name_and_by_file(tmp_path, monkeypatch, module):
     package(tmp_path, "own_robots", "own/Reach-v0")
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(sys, "path", list(sys.path))
-    assert TaskModule.find(module) == TaskModule("own_robots.tasks", str(tmp_path))
+    found = TaskModule.find(module)
+    assert found == TaskModule("own_robots.tasks", str(tmp_path))
+    assert TaskModule.find(found.text()) == found
     assert find_task("own_robots.tasks:own/Reach-v0") == "own/Reach-v0"
     assert find_task("own/Reach-v0") == "own/Reach-v0"
 
@@ -184,6 +186,7 @@ def test_the_module_of_a_file_begins_at_its_outermost_package(tmp_path):
     (inner / "deep.py").touch()
     expected = TaskModule("outer.inner.deep", str(tmp_path))
     assert TaskModule.find(str(inner / "deep.py")) == expected
+    assert expected.text() == str(inner / "deep.py")
 
 
 def test_an_entry_point_that_fails_is_named_once_and_left_out(monkeypatch):

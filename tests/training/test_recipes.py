@@ -129,11 +129,26 @@ def test_algorithms_that_need_continuous_actions_learn_the_twin(tmp_path, algo):
 
     settings = OffPolicySettings(buffer_size=100, learning_starts=100)
     recipe = dataclasses.replace(
-        recipe_for("TurtleBot3Stage4", algo), steps=8, num_envs=4, settings=settings
+        recipe_for("TurtleBot3Stage4", algo), steps=6, num_envs=4, settings=settings
     )
     with pytest.warns(TaskWarning, match=f"{algo} needs continuous actions"):
         result = train("TurtleBot3Stage4", recipe=recipe, out=tmp_path)
     assert Run.open(result.run.folder).config.task == "gazelle/TurtleBot3Stage4Continuous-v0"
+    assert result.steps == recipe.rounded_steps == 8
+
+
+@pytest.mark.parametrize(
+    ("steps", "settings", "rounded"),
+    [
+        (3000, PPOSettings(n_steps=32), 16_384),
+        (16_384, PPOSettings(n_steps=32), 16_384),
+        (513, OffPolicySettings(train_freq=2), 1024),
+    ],
+)
+def test_steps_are_rounded_up_to_whole_rollouts(steps, settings, rounded):
+    algo = "ppo" if isinstance(settings, PPOSettings) else "dqn"
+    recipe = Recipe(algo=algo, steps=steps, num_envs=512, settings=settings)
+    assert recipe.rounded_steps == rounded
 
 
 def test_others_learn_the_task_itself_and_a_twin_is_its_own():
