@@ -217,7 +217,9 @@ def _read_nodes(data: bytes, name: str, reading: Reading) -> dict[str, _Node]:
         raise FormatError(f"a map needs the key '{missing[0]}'", file=name, line=1, hint=hint)
     for key in unknown:
         reading.remark(
-            f"'{key}' means nothing in a map", nodes[key].source, did_you_mean(key, _KEYS)
+            f"'{key}' is not a key of a map and was ignored",
+            nodes[key].source,
+            did_you_mean(key, _KEYS),
         )
     return nodes
 

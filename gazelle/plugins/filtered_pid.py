@@ -66,7 +66,7 @@ class FilteredPids:
             rate: Derivative, likewise or one for all.
             step: Time since the last update [s].
             acting: Worlds that are updated, shape (nworld,); in others the controllers rest, and
-                what is returned means nothing.
+                the output is undefined.
         """
         gains = self._gains
         if gains.limit > 0.0:

@@ -167,7 +167,7 @@ def test_pictures_elsewhere_are_not_read(tmp_path):
 def test_unknown_keys_are_named(tmp_path):
     file = saved(tmp_path, [[0]])
     file.write_text(file.read_text() + "typ: x\n")
-    with pytest.warns(FormatWarning, match="'typ' means nothing in a map"):
+    with pytest.warns(FormatWarning, match="'typ' is not a key of a map"):
         load_map(file)
 
 

@@ -30,7 +30,7 @@ def text(link="", joint=LIMIT, rest=""):
         ({"joint": f"<axs xyz='0 0 1'/>{LIMIT}"}, "<axs> is not a URDF", "did you mean 'axis'?"),
         (
             {"joint": LIMIT.replace("upper", "uper")},
-            "the attribute 'uper' means nothing in a <limit>",
+            "the attribute 'uper' is not defined for <limit>",
             "did you mean 'upper'?",
         ),
         (
@@ -50,12 +50,12 @@ def text(link="", joint=LIMIT, rest=""):
         ({"rest": "<jont name='x'/>"}, "<jont> is not a URDF", "did you mean 'joint'?"),
         (
             {"joint": f"<origin xzy='0 0 1'/>{LIMIT}"},
-            "the attribute 'xzy' means nothing in a <origin>",
+            "the attribute 'xzy' is not defined for <origin>",
             "did you mean 'xyz'?",
         ),
         (
             {"joint": f"{LIMIT}<dynamics dampng='1'/>"},
-            "the attribute 'dampng' means nothing",
+            "the attribute 'dampng' is not defined for <dynamics>",
             "did you mean 'damping'?",
         ),
         (

@@ -17,12 +17,12 @@ from gazelle.formats.reading import Reading
 
 @dataclass(frozen=True, slots=True)
 class ElementSchema:
-    """An element: what may stand in it; whole, if for another reader.
+    """Attributes and children that an element may have; whole, if for another reader.
 
     Attributes:
         attributes: Names.
         children: Elements by tag.
-        whole: Whether it is not judged what is inside.
+        whole: True if its contents are not checked.
     """
 
     attributes: frozenset[str] = frozenset()
@@ -91,23 +91,23 @@ _ROBOT = _kind(
 
 def note_unknown(root: Parameters, reading: Reading) -> None:
     """Note unknown elements and attributes of a ``<robot>``."""
-    _judge(root, _ROBOT, reading)
+    _check(root, _ROBOT, reading)
 
 
-def _judge(node: Parameters, kind: ElementSchema, reading: Reading) -> None:
+def _check(node: Parameters, kind: ElementSchema, reading: Reading) -> None:
     if kind.whole:
         return
     for name in node.attributes:
         if name not in kind.attributes and ":" not in name and name != "xmlns":
             reading.note(
-                f"the attribute '{name}' means nothing in a <{node.tag}> of a URDF",
+                f"the attribute '{name}' is not defined for <{node.tag}> in URDF and was ignored",
                 node,
                 did_you_mean(name, kind.attributes),
             )
     for child in node.children:
         inner = kind.children.get(child.tag)
         if inner is not None:
-            _judge(child, inner, reading)
+            _check(child, inner, reading)
         elif ":" not in child.tag:
             reading.note(
                 f"<{child.tag}> is not a URDF element of <{node.tag}> and was ignored",

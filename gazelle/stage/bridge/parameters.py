@@ -103,5 +103,5 @@ def _name_slips(left: dict[str, Any], own: str) -> None:
     for name in left:
         close = difflib.get_close_matches(name, known, n=1, cutoff=0.8)
         if close:
-            text = f"the parameter {own}{name} means nothing; did you mean '{close[0]}'?"
+            text = f"unknown parameter {own}{name}; did you mean '{close[0]}'?"
             warnings.warn(text, SimulationWarning, stacklevel=3)

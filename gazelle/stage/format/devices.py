@@ -100,7 +100,7 @@ def read_sensor(entity: Entity, outer: Properties) -> StageSensor:
     for name in ("range_min", "range_max", "view"):
         properties.note(
             name,
-            f"'{name}' means nothing to Stage 4, and is ignored",
+            f"'{name}' is not a property in Stage 4 and was ignored",
             "write range [ min max ] and fov",
         )
     sensor = StageSensor(

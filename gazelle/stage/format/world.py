@@ -63,7 +63,7 @@ def read_world(script: Script, reading: Reading, folder: Path | None) -> StageWo
         _try_macros(macros, context)
     properties.get("test")
     for name, hint in _IGNORED:
-        properties.note(name, f"'{name}' means nothing to Stage 4, and is ignored", hint)
+        properties.note(name, f"'{name}' is not a property in Stage 4 and was ignored", hint)
     properties.report_unknown()
     return world
 

@@ -150,7 +150,7 @@ class EventLoop:
         self._watched[number] = sock, handler
 
     def unwatch(self, sock: socket.socket) -> None:
-        """Wait for a socket no more; nothing happens to one that is not watched.
+        """Stop watching a socket; one that is not watched is ignored.
 
         Raises:
             RuntimeError: This is not the loop's thread.

@@ -254,7 +254,7 @@ def test_what_cannot_be_is_refused_with_a_hint(tmp_path, text, said):
         ("model ( colour 3 )", "'colour' is no property of a model, and ignored; did you mean"),
         ("ranger ( sensor ( fow 3 ) )", "'fow' is no property of a sensor"),
         ("resolutoin 3", "did you mean 'resolution'?"),
-        ("interval_real 100", "'interval_real' means nothing to Stage 4"),
+        ("interval_real 100", "'interval_real' is not a property in Stage 4"),
         ("model ( laser_return 1 )", "'laser_return' is of Stage 3"),
         ("ranger ( sensor ( range_max 6.5 ) )", "write range [ min max ]"),
         ('model ( color "blurple" )', "'blurple' is no colour of X11"),

@@ -19,7 +19,7 @@ def put_root(
     quaternion: Floats,
     worlds: Worlds | None,
 ) -> None:
-    """Set the pose of a root; nothing happens to one that is static.
+    """Set the pose of a root; a static one keeps its pose.
 
     Args:
         run: Worlds that run.

@@ -163,7 +163,7 @@ class Substitution:
 
     def _dirname(self) -> str:
         if not self.file:
-            raise SubstitutionError("$(dirname) means nothing outside of a file")
+            raise SubstitutionError("$(dirname) needs a launch file, and this text has none")
         return os.path.dirname(os.path.abspath(self.file))  # noqa: PTH100, PTH120  # text to text
 
 
