@@ -30,6 +30,8 @@ cdef class Moving(System):
     b=Py_ssize_t, _=Py_ssize_t)
 cdef void advance_worlds(
     Bodies w, Py_ssize_t first, Py_ssize_t last, Py_ssize_t count) noexcept nogil
+cdef void advance_queued(
+    Bodies w, double *table, Py_ssize_t *which, Py_ssize_t number) noexcept nogil
 @cython.locals(sideways=bint)
 cdef bint keeps_velocity(Bodies w, Py_ssize_t b, Py_ssize_t k) noexcept nogil
 @cython.locals(sideways=bint, axis=Py_ssize_t, speed=double)

@@ -103,15 +103,18 @@ def advance_worlds(w: Bodies, first: int, last: int, count: int) -> None:
                     which[queued] = b
                     queued += 1
                     if queued == WIDE:
-                        drive(table, queued)
-                        store(w, table, which, queued)
+                        advance_queued(w, table, which, queued)
                         queued = 0
             if left > 0 and steps > 0:  # the world goes on from there
-                drive(table, queued)
-                store(w, table, which, queued)
+                advance_queued(w, table, which, queued)
                 queued = 0
-    drive(table, queued)
-    store(w, table, which, queued)
+    advance_queued(w, table, which, queued)
+
+
+def advance_queued(w: Bodies, table: Any, which: Any, number: int) -> None:
+    """Make the steps of a table's first bodies, and write the bodies back."""
+    drive(table, number)
+    store(w, table, which, number)
 
 
 def keeps_velocity(w: Bodies, b: int, k: int) -> bool:

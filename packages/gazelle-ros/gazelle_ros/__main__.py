@@ -2,17 +2,12 @@
 
 import sys
 
-from gazelle_ros.base.early_signals import ending_quietly
+from gazelle_ros.base.early_signals import run_program
 
 
 def main() -> int:
     """Import and run the command line; returns the exit code."""
-    try:
-        with ending_quietly():
-            from gazelle_ros.cli.main import main as run
-        return run()
-    except KeyboardInterrupt:  # before or after the command
-        return 130
+    return run_program("gazelle_ros.cli.main")
 
 
 if __name__ == "__main__":

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import functools
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -66,20 +68,7 @@ def point_cloud_xyzrgb(node: Node) -> ImageConversion:
     Raises:
         Error: A parameter is wrong.
     """
-    settings = settings_of(node, CloudSettings, others=TRANSPORT_PARAMETERS)
-    kinds = sensor_msgs.msg
-    return ImageConversion(
-        node,
-        [
-            ("depth_registered/image_rect", kinds.Image),
-            ("rgb/image_rect_color", kinds.Image),
-            ("rgb/camera_info", kinds.CameraInfo),
-        ],
-        [("depth_registered/points", kinds.PointCloud2)],
-        lambda depth, colours, camera: [coloured_cloud(depth, colours, camera)],
-        queue_size=settings.queue_size,
-        exact=settings.exact_sync,
-    )
+    return _of_two_cameras(node, "depth_registered", "rgb", "image_rect_color", coloured_cloud)
 
 
 def point_cloud_xyzi(node: Node) -> ImageConversion:
@@ -91,17 +80,29 @@ def point_cloud_xyzi(node: Node) -> ImageConversion:
     Raises:
         Error: A parameter is wrong.
     """
+    cloud_of = functools.partial(coloured_cloud, intensity=True)
+    return _of_two_cameras(node, "depth", "intensity", "image_rect", cloud_of)
+
+
+def _of_two_cameras(
+    node: Node,
+    depth: str,
+    camera: str,
+    image: str,
+    cloud_of: Callable[..., sensor_msgs.msg.PointCloud2],
+) -> ImageConversion:
+    """Return the work of a node that colours the depth of one camera by the image of another."""
     settings = settings_of(node, CloudSettings, others=TRANSPORT_PARAMETERS)
     kinds = sensor_msgs.msg
     return ImageConversion(
         node,
         [
-            ("depth/image_rect", kinds.Image),
-            ("intensity/image_rect", kinds.Image),
-            ("intensity/camera_info", kinds.CameraInfo),
+            (f"{depth}/image_rect", kinds.Image),
+            (f"{camera}/{image}", kinds.Image),
+            (f"{camera}/camera_info", kinds.CameraInfo),
         ],
-        [("depth/points", kinds.PointCloud2)],
-        lambda depth, grey, camera: [coloured_cloud(depth, grey, camera, intensity=True)],
+        [(f"{depth}/points", kinds.PointCloud2)],
+        lambda *messages: [cloud_of(*messages)],
         queue_size=settings.queue_size,
         exact=settings.exact_sync,
     )
