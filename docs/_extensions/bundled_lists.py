@@ -1,11 +1,12 @@
 """Tables of all that comes with Gazelle, from the code.
 
-The directive ``bundled-list KIND`` writes one: robots, worlds, tasks, plugins or controllers.
+The directive ``bundled-list KIND`` writes one: robots, worlds, tasks, controllers, or plugins that
+are left out or needless.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 from docutils import nodes
 from sphinx.application import Sphinx
@@ -14,7 +15,7 @@ from sphinx.util.docutils import SphinxDirective
 from gazelle import assets, control
 from gazelle.assets.descriptions import description
 from gazelle.control import registry as controllers
-from gazelle.simulation import registry as plugins
+from gazelle.plugins.table import TABLE
 from gazelle.training import list_tasks, listed_recipe
 
 Rows = Iterator[tuple[str, ...]]
@@ -37,9 +38,18 @@ def _tasks() -> Rows:
         yield task.id, recipe.algo, f"{recipe.steps:,}"
 
 
-def _plugins() -> Rows:
-    yield "file", "purpose"
-    yield from ((name, plugins.purpose(name)) for name in plugins.names())
+def _plugins_left_out() -> Rows:
+    yield "file", "purpose", "what the warning says"
+    yield from ((_files(row.files), row.what, row.missing) for row in TABLE if row.missing)
+
+
+def _needless_plugins() -> Rows:
+    yield "file", "purpose", "why there is nothing to do"
+    yield from ((_files(row.files), row.what, row.done_by) for row in TABLE if row.done_by)
+
+
+def _files(stems: Sequence[str]) -> str:
+    return " ".join(f"lib{stem}.so" for stem in stems)
 
 
 def _controllers() -> Rows:
@@ -49,7 +59,8 @@ def _controllers() -> Rows:
 
 _KINDS: dict[str, Callable[[], Rows]] = {
     "controllers": _controllers,
-    "plugins": _plugins,
+    "needless-plugins": _needless_plugins,
+    "plugins-left-out": _plugins_left_out,
     "robots": _robots,
     "tasks": _tasks,
     "worlds": _worlds,
@@ -74,10 +85,13 @@ class BundledList(SphinxDirective):
 
 
 def _row(cells: tuple[str, ...]) -> nodes.row:
-    """Return a row, whose first cell is code."""
+    """Return a row, whose first cell is names of code."""
     first, *others = (cell.replace("`", "") for cell in cells)
-    made = [nodes.literal(first, first), *map(nodes.Text, others)]
-    return nodes.row("", *(nodes.entry("", nodes.paragraph("", "", each)) for each in made))
+    names = [
+        part for name in first.split() for part in (nodes.literal(name, name), nodes.Text(" "))
+    ]
+    made = [names, *([nodes.Text(other)] for other in others)]
+    return nodes.row("", *(nodes.entry("", nodes.paragraph("", "", *each)) for each in made))
 
 
 def setup(app: Sphinx) -> dict[str, bool]:
