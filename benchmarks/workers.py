@@ -1,7 +1,7 @@
 """Rollouts by workers: control steps a second of one and of two, and what an iteration costs.
 
 Workers are processes of this machine, and with --ray actors of a local Ray cluster. Printed is what
-docs/how-to/scale.md computes with: a rollout's bytes, what they cost to carry, and weights and states.
+docs/explanation/benchmarks.md computes with: a rollout's bytes, what they cost to carry, and weights and states.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Run benchmarks and put what they print into the docs, with the day and the commit.
 
-Without arguments all tables, else the ones named. A table of docs/explanation/benchmarks.md or docs/how-to/scale.md
+Without arguments all tables, else the ones named. A table of docs/explanation/benchmarks.md
 stands behind its benchmark and the arguments (``<!-- learner --all-in -->``); ``contacts`` is the
 table of docs/explanation/physics.md, errors and costs of contacts. All of physics, in two minutes:
 
@@ -24,7 +24,7 @@ sys.path.insert(0, str(ROOT / "benchmarks"))
 
 from _checkout import commit  # noqa: E402  # lies beside the benchmarks
 
-PAGES = ("explanation/benchmarks.md", "how-to/scale.md", "explanation/physics.md")
+PAGES = ("explanation/benchmarks.md", "explanation/physics.md")
 BLOCK = re.compile(
     r"(?ms)^<!-- (?P<name>[a-z]+)(?P<arguments> [^>]*?)? -->\n"
     r"(?P<text>```text\n.*?^```\n|(?:\|[^\n]*\n)+\n[^\n]*\n)"
