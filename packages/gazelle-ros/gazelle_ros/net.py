@@ -117,6 +117,14 @@ _names: dict[str, tuple[float, str]] = {}
 _names_lock = threading.Lock()
 
 
+def is_loopback(host: str) -> bool:
+    """Return whether an address, or a name, is this machine's own alone."""
+    try:
+        return ipaddress.ip_address(host).is_loopback
+    except ValueError:
+        return host == "localhost"
+
+
 def known_address(host: str) -> str | None:
     """Return the numeric address of `host` if that needs no name server, else None."""
     if host == "localhost":

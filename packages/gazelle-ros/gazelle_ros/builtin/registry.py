@@ -105,6 +105,11 @@ _OWN = {
         BuiltinPackage("kobuki_safety_controller", nodelets={
             "SafetyControllerNodelet": "gazelle_ros.builtin.kobuki.safety_controller:KobukiSafety",
         }),
+        BuiltinPackage("laser_assembler", {
+            "laser_scan_assembler": "gazelle_ros.builtin.scans.assembler:scan_main",
+            "point_cloud_assembler": "gazelle_ros.builtin.scans.assembler:cloud_main",
+            "point_cloud2_assembler": "gazelle_ros.builtin.scans.assembler:cloud2_main",
+        }),
         BuiltinPackage("laser_filters", {
             "scan_to_scan_filter_chain": "gazelle_ros.builtin.scans.filters.chain:main",
         }, {"scan_to_scan_filter_chain": "gazelle_ros.builtin.scans.filters.chain:ScanFilterChain"}),
@@ -164,6 +169,7 @@ _OWN = {
             "joystick_relay": "gazelle_ros.builtin.joysticks.relay:main",
             "joystick_relay.py": "gazelle_ros.builtin.joysticks.relay:main",
         }),
+        BuiltinPackage("web_video_server", {"web_video_server": "gazelle_ros.builtin.web_video.server:main"}),
         BuiltinPackage("xacro", {
             "xacro": "gazelle_ros.builtin.xacro:main",
             "xacro.py": "gazelle_ros.builtin.xacro:main",

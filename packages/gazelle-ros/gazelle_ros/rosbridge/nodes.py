@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ipaddress
 import sys
 import time
 from collections.abc import Iterator, Sequence
@@ -11,6 +10,7 @@ from contextlib import contextmanager
 from gazelle_ros.base.errors import RosError
 from gazelle_ros.base.interrupts import stopping
 from gazelle_ros.builtin.arguments import parse_arguments, spin
+from gazelle_ros.net import is_loopback
 from gazelle_ros.node import Node
 from gazelle_ros.rosbridge.rosapi import RosApi
 from gazelle_ros.rosbridge.server import BridgeServer
@@ -62,7 +62,7 @@ def listening_text(settings: BridgeSettings, port: int) -> str:
     """Describe the address it listens on, and its reach."""
     scheme = "wss" if settings.certfile else "ws"
     text = f"Rosbridge WebSocket server started at {scheme}://{settings.address}:{port}"
-    if _is_loopback(settings.address):
+    if is_loopback(settings.address):
         return text
     return f"{text}; every machine that reaches this one can use the graph through it"
 
@@ -82,10 +82,3 @@ def _listen(node: Node, settings: BridgeSettings) -> BridgeServer | None:
             while time.monotonic() < until:
                 if node.closed or stop.wait(min(0.2, pause)):
                     return None
-
-
-def _is_loopback(address: str) -> bool:
-    try:
-        return ipaddress.ip_address(address).is_loopback
-    except ValueError:
-        return address == "localhost"

@@ -6,6 +6,7 @@ import ipaddress
 import socket
 from urllib.parse import urlsplit
 
+from gazelle_ros.net import is_loopback
 from gazelle_ros.rosbridge.settings import BridgeSettings, matches
 
 _NULL = "null"
@@ -35,7 +36,7 @@ def may_connect(origin: str | None, host: str, settings: BridgeSettings) -> bool
     page, allowed_host = _name(origin), _name(f"//{host}")
     if page is None:
         return False
-    return _is_here(page) or (page == allowed_host and _is_trusted(page))
+    return is_loopback(page) or (page == allowed_host and _is_trusted(page))
 
 
 def _name(uri: str) -> str | None:
@@ -43,15 +44,6 @@ def _name(uri: str) -> str | None:
         return urlsplit(uri).hostname
     except ValueError:
         return None
-
-
-def _is_here(name: str) -> bool:
-    if name == "localhost":
-        return True
-    try:
-        return ipaddress.ip_address(name).is_loopback
-    except ValueError:
-        return False
 
 
 def _is_trusted(name: str) -> bool:

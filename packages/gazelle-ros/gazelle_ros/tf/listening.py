@@ -5,7 +5,7 @@ from __future__ import annotations
 from gazelle_ros.clock import SECOND
 from gazelle_ros.msgs import tf2_msgs
 from gazelle_ros.node import Node
-from gazelle_ros.tf.core import FrameTree, StampedTransform
+from gazelle_ros.tf.core import DEFAULT_CACHE_NS, FrameTree, StampedTransform
 from gazelle_ros.tf.errors import TransformException
 from gazelle_ros.tf.taking import take_transforms
 
@@ -18,14 +18,15 @@ class FrameListener:
 
     Args:
         node: On the graph.
+        cache_ns: Time for which transforms are kept [ns].
 
     Attributes:
         tree: All that is known.
     """
 
-    def __init__(self, node: Node) -> None:
+    def __init__(self, node: Node, cache_ns: int = DEFAULT_CACHE_NS) -> None:
         self._node = node
-        self.tree = FrameTree()
+        self.tree = FrameTree(cache_ns)
         self._latest = 0
         kind = tf2_msgs.msg.TFMessage
         node.subscribe("/tf", kind, lambda message: self._take(message, static=False))

@@ -12,6 +12,7 @@ from typing import Any, Generic, TypeVar
 from gazelle_ros.builtin.on_demand import OnDemandOutputs
 from gazelle_ros.node import Node
 from gazelle_ros.tf import FrameTree, StampedTransform, TransformException
+from gazelle_ros.tf.core import DEFAULT_CACHE_NS
 from gazelle_ros.tf.listening import FrameListener
 from gazelle_ros.tf.scan_queue import KEPT, MessageQueue
 
@@ -31,18 +32,26 @@ class StampedWork(ABC, Generic[Found]):
         node: On the graph.
         frames: Frames that transforms are needed to; without any, no transform is listened to.
         kept: Messages that wait, the newest ones.
+        cache_ns: Time for which transforms are kept [ns].
 
     Attributes:
         queue: Messages that wait for their transforms.
         tree: Frames that are known.
     """
 
-    def __init__(self, node: Node, frames: Collection[str], kept: int = KEPT) -> None:
+    def __init__(
+        self,
+        node: Node,
+        frames: Collection[str],
+        kept: int = KEPT,
+        *,
+        cache_ns: int = DEFAULT_CACHE_NS,
+    ) -> None:
         self._node = node
         self.queue = MessageQueue(kept)
         self.tree = FrameTree()
         if frames:
-            self.tree = FrameListener(node).tree
+            self.tree = FrameListener(node, cache_ns).tree
             self.tree.on_change(self.queue.wake)
         self._good = time.monotonic()
         self._warned = -_PATIENCE_S

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Protocol
 
@@ -11,7 +11,7 @@ import numpy as np
 from gazelle_ros.base.array_types import Bools, Floats
 from gazelle_ros.clock import SECOND
 from gazelle_ros.msgs import sensor_msgs, std_msgs
-from gazelle_ros.tf import StampedTransform
+from gazelle_ros.tf import FrameTree, StampedTransform
 from gazelle_ros.time import Time
 
 
@@ -147,3 +147,28 @@ def beam_scan(message: Any) -> BeamScan:
         scan_time=message.scan_time,
         frame=message.header.frame_id,
     )
+
+
+def with_motions(
+    scan: BeamScan,
+    tree: FrameTree,
+    frames: Collection[str],
+    known: Mapping[str, ScanMotion] | None = None,
+) -> BeamScan:
+    """Return a scan with its motions to some frames.
+
+    Args:
+        scan: A scan.
+        tree: Frames that are known.
+        frames: Frames that the filters of the scan need.
+        known: More motions, by frame.
+
+    Raises:
+        TransformException: One is not known.
+    """
+    own, found = scan.frame.strip("/"), dict(known or {})
+    for frame in frames:
+        target = frame.strip("/")
+        ends = [tree.lookup(target, own, each) for each in (scan.stamp, scan.last_stamp)]
+        found[frame] = ScanMotion(*ends)
+    return replace(scan, motions=found)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import fields, replace
+from dataclasses import fields
 from typing import Any
 
 from gazelle_ros.base.errors import Error, RosError, did_you_mean
@@ -13,7 +13,7 @@ from gazelle_ros.builtin.arguments import run_node
 from gazelle_ros.builtin.parameters import private_values
 from gazelle_ros.builtin.scans.conversion import StampedWork
 from gazelle_ros.builtin.scans.filters import by_angle, by_neighbours, by_place, by_value, over_time
-from gazelle_ros.builtin.scans.filters.beams import BeamScan, ScanFilter, ScanMotion, beam_scan
+from gazelle_ros.builtin.scans.filters.beams import BeamScan, ScanFilter, beam_scan, with_motions
 from gazelle_ros.builtin.tuned_settings import TunedSettings
 from gazelle_ros.msgs import sensor_msgs
 from gazelle_ros.node import Node
@@ -75,6 +75,26 @@ def scan_filter(where: str, entry: Any) -> ScanFilter:
     return made
 
 
+def scan_filters(where: str, listed: Any) -> list[ScanFilter]:
+    """Return filters from a list of their parameters.
+
+    Args:
+        where: Name of the parameter, for messages.
+        listed: The list.
+
+    Raises:
+        RosError: It is none, or a filter is unknown or wrong.
+    """
+    if not isinstance(listed, list):
+        raise RosError(f"{where} is not set to a list of filters")
+    return [scan_filter(f"{where}[{number}]", each) for number, each in enumerate(listed)]
+
+
+def frames_of(filters: Collection[ScanFilter]) -> set[str]:
+    """Return the frames that filters need transforms to."""
+    return {getattr(each, "frame", "") for each in filters} - {""}
+
+
 class ScanFilterChain(StampedWork[BeamScan]):
     """Scans of ``scan``, filtered, on ``scan_filtered``.
 
@@ -90,16 +110,12 @@ class ScanFilterChain(StampedWork[BeamScan]):
         name = next((each for each in _CHAINS if each in values), None)
         listed = values.get(name or "")
         where = node.resolve(f"~{name or _CHAINS[0]}")
-        if not isinstance(listed, list):
-            raise RosError(f"{where} is not set to a list of filters")
         warn_of_unknown(node.resolve("~"), values, (*_CHAINS, *_PARAMETERS))
-        self.filters = [
-            scan_filter(f"{where}[{number}]", each) for number, each in enumerate(listed)
-        ]
+        self.filters = scan_filters(where, listed)
         self._wanted = value_of(values, _PARAMETERS[0], "")
         super().__init__(node, self._frames())
         self._lock = threading.Lock()
-        self._tune(node, [each["name"] for each in listed], where)
+        self._tune(node, [each["name"] for each in values[name or ""]], where)
         scan = sensor_msgs.msg.LaserScan
         self._output = node.advertise("scan_filtered", scan, _OUTPUT_QUEUE)
         node.subscribe("scan", scan, self.queue.add, _QUEUE)
@@ -110,13 +126,7 @@ class ScanFilterChain(StampedWork[BeamScan]):
         Raises:
             TransformException: One is not known.
         """
-        own, scan = message.header.frame_id.strip("/"), beam_scan(message)
-        found = {}
-        for frame in self._frames():
-            target = frame.strip("/")
-            ends = [self.tree.lookup(target, own, each) for each in (scan.stamp, scan.last_stamp)]
-            found[frame] = ScanMotion(*ends)
-        return replace(scan, motions=found)
+        return with_motions(beam_scan(message), self.tree, self._frames())
 
     def use(self, message: Any, transformed: BeamScan) -> None:  # noqa: ARG002  transformed holds the scan
         """Publish a scan, filtered.
@@ -132,7 +142,7 @@ class ScanFilterChain(StampedWork[BeamScan]):
 
     def _frames(self) -> Collection[str]:
         """Return the frames that transforms are needed to."""
-        return {self._wanted, *(getattr(each, "frame", "") for each in self.filters)} - {""}
+        return {self._wanted, *frames_of(self.filters)} - {""}
 
     def _tune(self, node: Node, names: Sequence[str], where: str) -> None:
         """Serve dynamic_reconfigure for each filter that it can change."""
