@@ -11,7 +11,7 @@ from gazelle.control.checking import check_controllers, is_controllers
 from gazelle.description import World
 from gazelle.errors import ControlError, Error, FormatWarning, GazelleWarning, PluginWarning
 from gazelle.formats import Problem
-from gazelle.formats.check import TOLERATED, is_semantic
+from gazelle.formats.check import INCLUDED, TOLERATED, is_semantic
 from gazelle.simulation import Simulation
 
 
@@ -62,7 +62,11 @@ def check_text(text: str, name: str, engine: str | None) -> list[Problem]:
 
 
 def _stops(found: list[Problem]) -> bool:
-    return any(each.severity == "error" and each.rule != TOLERATED for each in found)
+    """Return whether there is nothing to build."""
+    return any(
+        each.rule == INCLUDED or (each.severity == "error" and each.rule != TOLERATED)
+        for each in found
+    )
 
 
 def _build(source: Callable[[], World | str], engine: str) -> list[Problem]:

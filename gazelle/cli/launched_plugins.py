@@ -10,7 +10,7 @@ from gazelle.errors import Error
 from gazelle.formats import Problem
 from gazelle.navigation.move_base import navigation_stack
 from gazelle.navigation.move_base.settings import MoveBaseSettings
-from gazelle.navigation.planners.plugins import global_planner, local_planner
+from gazelle.navigation.planners.plugins import global_planner, local_planner, names_class
 from gazelle_ros.launch.plan import LaunchParameter, LaunchPlan, NodePlan, ParameterCommand
 
 _FINDERS: Mapping[str, Callable[[str], object]] = {
@@ -66,7 +66,7 @@ def _look_for(
 ) -> tuple[PluginRow, Problem | None]:
     """Return a planner and where it is, and what is wrong with its type."""
     kind = getattr(MoveBaseSettings(), name) if given is None else given.value
-    if not isinstance(kind, str) or ":" in kind:
+    if not isinstance(kind, str) or names_class(kind):
         return (str(kind), "your own"), None
     try:
         find(kind)

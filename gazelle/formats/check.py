@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
@@ -15,10 +15,12 @@ from gazelle.formats.lint import Diagnostic, lint, semantics
 from gazelle.formats.loader import PathLike, find_file, read_path, read_text
 from gazelle.formats.reading import Note, Reading
 from gazelle.formats.resolve import Resolver
-from gazelle.formats.urdf.tree import read_tree
+from gazelle.formats.urdf.tree import NoLinksError, read_tree
 
 TOLERATED = "tolerated"
 """Rule of the faults that a load continues with, as Gazebo does."""
+INCLUDED = "only-macros"
+"""Rule of xacro files that have no link, and are there for others to include."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,6 +103,12 @@ def _found(reading: Reading, judge: Callable[[], list[Problem]], name: str | Non
     judged: list[Problem] = []
     try:
         judged = judge()
+    except NoLinksError as error:
+        problem = Problem.of(error, name)
+        included = problem.file is not None and Path(problem.file).suffix == ".xacro"
+        problems.append(
+            replace(problem, severity="warning", rule=INCLUDED) if included else problem
+        )
     except Error as error:
         problems.append(Problem.of(error, name))
     problems += [_noted(note) for note in reading.notes if note.severity == "error"]

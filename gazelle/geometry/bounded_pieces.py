@@ -16,7 +16,7 @@ from gazelle.geometry.flat_polygons import Polygons
 from gazelle.geometry.hull import Solid, hulls_of
 from gazelle.geometry.merging import PieceMerger
 from gazelle.geometry.patches import depths_of, joined_flat, skin_of, widths_of
-from gazelle.geometry.probing import ROUNDING, air_beside
+from gazelle.geometry.probing import ROUNDING, AirBeside
 from gazelle.geometry.surface import WeldedSurface
 
 MOST_PIECES = 1000
@@ -48,17 +48,18 @@ def pieces_within(
     """
     solid, skin = closed[number], min(skin_of(surface), max(bound, 1e-3))
     start, pairs = _clouds(surface, number, solid, whole, bound)
-    clouds = start
+    if len(start) <= 1:
+        return hulls_of(start), bound
+    clouds, air = start, AirBeside(surface, solid, skin)
     for distance, most in _distances(bound):
-        if len(start) > _TOO_MANY_POLYGONS and distance < _WITHIN * bound:
-            continue  # it would take long, and not be enough
+        if len(start) > _MANY_POLYGONS and distance < _WITHIN * bound:
+            continue  # it would take long, and hardly ever be enough
         if distance > bound:
             start, pairs = _clouds(surface, number, solid, whole, distance)
-        if len(start) > 1:
-            merger = PieceMerger(start, air_beside(surface, solid, distance, skin))
-            merger.merge(pairs)
-            merger.merge(merger.overlapping())
-            clouds = merger.clouds()
+        merger = PieceMerger(start, air.at(distance))
+        merger.merge(pairs)
+        merger.merge(merger.overlapping())
+        clouds = merger.clouds()
         if len(clouds) <= most:
             break
     return hulls_of(clouds), max(bound, distance / _WITHIN)

@@ -8,7 +8,7 @@ import numpy as np
 
 from gazelle.array_types import Floats
 from gazelle.geometry.mesh_data import MeshData
-from gazelle.geometry.ray_hits import first_hits
+from gazelle.geometry.ray_hits import SurfaceRays
 from gazelle.geometry.surface import WeldedSurface, clean
 
 FEWEST = 4000
@@ -64,7 +64,9 @@ def ground_of(mesh: MeshData) -> Ground | None:
         ],
         axis=1,
     )
-    distance, _ = first_hits(surface, start, np.broadcast_to([0.0, 0.0, -1.0], start.shape))
+    distance, _ = SurfaceRays(surface).first_hits(
+        start, np.broadcast_to([0.0, 0.0, -1.0], start.shape)
+    )
     if not np.isfinite(distance).all():
         return None
     heights = (start[:, 2] - distance).reshape(rows, columns)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gazelle.array_types import Bools, Floats, Indices
-from gazelle.geometry.ray_hits import first_hits
+from gazelle.geometry.ray_hits import SurfaceRays
 from gazelle.geometry.surface import WeldedSurface
 
 ROUNDING = 1e-6
@@ -40,54 +40,95 @@ class _Feet:
     Attributes:
         points: [m], shape (n, 3).
         ways: Unit vectors into the air, shape (n, 3).
-        lengths: Positions of the points in the air along them [m], shape (n,).
         faces: The triangle of each, shape (n,).
     """
 
     points: Floats
     ways: Floats
-    lengths: Floats
     faces: Indices
 
 
-def air_beside(surface: WeldedSurface, closed: Bools, distance: float, skin: float) -> Floats:
-    """Return places in the air at a distance from a surface, shape (n, 3).
-
-    Gaps narrower than twice the distance have none.
+class AirBeside:
+    """Places in the air close to a surface.
 
     Args:
         surface: Any triangles.
         closed: Whether each triangle belongs to a closed body, shape (m,); of other triangles
             there is air on both sides.
-        distance: From the surface [m].
         skin: Thickness of what is not closed, behind it [m].
     """
-    over, rims = _over_faces(surface, distance), _along_rims(surface, distance)
-    along = _along_notches(surface, distance)
-    found = [_in_air(surface, feet, closed) for feet in (over, rims, along)]
-    if not closed.all():
-        rows = ~closed[over.faces]
-        lengths = over.lengths[rows] + skin
-        behind = _Feet(over.points[rows], -over.ways[rows], lengths, over.faces[rows])
-        found.append(_in_air(surface, behind, np.zeros_like(closed)))
-    return np.concatenate(found)
+
+    def __init__(self, surface: WeldedSurface, closed: Bools, skin: float) -> None:
+        self._surface, self._closed, self._skin = surface, closed, skin
+        self._rays = SurfaceRays(surface)
+        corners = surface.vertices[surface.faces]
+        inset = corners + _INSET * (corners.mean(axis=1)[:, None] - corners)
+        faces = np.repeat(np.arange(len(surface.faces)), 3)
+        self._corners = self._cast(_Feet(inset.reshape(-1, 3), surface.normals[faces], faces))
+        self._behind_corners = self._cast(self._behind(self._corners.feet))
+
+    def at(self, distance: float) -> Floats:
+        """Return places in the air at a distance from the surface [m], shape (n, 3).
+
+        Gaps narrower than twice the distance have none.
+        """
+        over = _over_faces(self._surface, distance)
+        rims, out = _along_rims(self._surface, distance)
+        notches, up = _along_notches(self._surface, distance)
+        return np.concatenate(
+            [
+                self._corners.places(distance, self._closed),
+                self._behind_corners.places(distance + self._skin, None),
+                self._cast(over).places(distance, self._closed),
+                self._cast(self._behind(over)).places(distance + self._skin, None),
+                self._cast(rims).places(out, self._closed),
+                self._cast(notches).places(up, self._closed),
+            ]
+        )
+
+    def _behind(self, feet: _Feet) -> _Feet:
+        """Return places on triangles that are not closed, with the ways behind them."""
+        rows = ~self._closed[feet.faces]
+        return _Feet(feet.points[rows], -feet.ways[rows], feet.faces[rows])
+
+    def _cast(self, feet: _Feet) -> _Rays:
+        """Cast rays from places on the surface along their ways."""
+        return _Rays(feet, *self._rays.first_hits(feet.points, feet.ways))
 
 
-def _in_air(surface: WeldedSurface, feet: _Feet, closed: Bools) -> Floats:
-    """Return the places over some on a surface that are neither in another body nor near it."""
-    free, within = first_hits(surface, feet.points, feet.ways)
-    kept = (free > 2.0 * feet.lengths) & ~(within & closed[feet.faces])
-    return (feet.points + feet.lengths[:, None] * feet.ways)[kept]
+@dataclass(frozen=True, slots=True)
+class _Rays:
+    """Rays into the air.
+
+    Attributes:
+        feet: Their origins and directions.
+        free: Distance to what they meet first [m], shape (n,).
+        within: Whether they meet it from behind, shape (n,).
+    """
+
+    feet: _Feet
+    free: Floats
+    within: Bools
+
+    def places(self, lengths: Floats | float, closed: Bools | None) -> Floats:
+        """Return the places along the rays that are neither in another body nor near it.
+
+        Args:
+            lengths: Positions along the rays [m], shape (n,).
+            closed: Whether each triangle of the surface belongs to a closed body; None if
+                none does.
+        """
+        kept = self.free > 2.0 * lengths
+        if closed is not None:
+            kept &= ~(self.within & closed[self.feet.faces])
+        along = np.broadcast_to(lengths, len(kept))[kept, None]
+        return self.feet.points[kept] + along * self.feet.ways[kept]
 
 
 def _over_faces(surface: WeldedSurface, distance: float) -> _Feet:
-    """Return places all over the triangles, and beside their corners."""
+    """Return places all over the triangles."""
     points, faces = spread(surface, max(4.0 * distance, surface.size / _COARSE))
-    corners = surface.vertices[surface.faces]
-    inset = corners + _INSET * (corners.mean(axis=1)[:, None] - corners)
-    points = np.concatenate([points, inset.reshape(-1, 3)])
-    faces = np.concatenate([faces, np.repeat(np.arange(len(surface.faces)), 3)])
-    return _Feet(points, surface.normals[faces], np.full(len(points), distance), faces)
+    return _Feet(points, surface.normals[faces], faces)
 
 
 def spread(surface: WeldedSurface, spacing: float) -> tuple[Floats, Indices]:
@@ -111,7 +152,7 @@ def spread(surface: WeldedSurface, spacing: float) -> tuple[Floats, Indices]:
     return a + u[:, None] * (b - a) + v[:, None] * (c - a), faces
 
 
-def _along_rims(surface: WeldedSurface, distance: float) -> _Feet:
+def _along_rims(surface: WeldedSurface, distance: float) -> tuple[_Feet, Floats]:
     """Return places beside sharp edges that are bent outwards, and beside open ones.
 
     Each is level with the face on the other side of the edge, just below its plane: what would
@@ -143,10 +184,10 @@ def _along_rims(surface: WeldedSurface, distance: float) -> _Feet:
     rows, place = _counted(counts)
     points = (start + foot)[rows] + ((place + 0.5) / counts[rows])[:, None] * way[rows]
     leaps = (leap / np.maximum(far, 1e-300)[:, None])[rows]
-    return _Feet(points, leaps, far[rows], faces[edges[rows]])
+    return _Feet(points, leaps, faces[edges[rows]]), far[rows]
 
 
-def _along_notches(surface: WeldedSurface, distance: float) -> _Feet:
+def _along_notches(surface: WeldedSurface, distance: float) -> tuple[_Feet, Floats]:
     """Return places along edges that are bent inwards, between the planes of both sides."""
     twins, tails = surface.twins, surface.faces.ravel()
     edges = np.flatnonzero(twins > np.arange(len(twins)))
@@ -167,7 +208,7 @@ def _along_notches(surface: WeldedSurface, distance: float) -> _Feet:
     rows, place = _counted(counts)
     share = np.clip(place / (counts[rows] - 1), _INSET, 1.0 - _INSET)
     points = start[rows] + share[:, None] * (end - start)[rows]
-    return _Feet(points, ways[rows], lengths[rows], one[rows])
+    return _Feet(points, ways[rows], one[rows]), lengths[rows]
 
 
 def _counted(counts: Indices) -> tuple[Indices, Indices]:

@@ -129,6 +129,12 @@ MOVE_BASE = """<launch>
             ": ok",
         ),
         (
+            "base_local_planner",
+            "nav_core_adapter::LocalPlannerAdapter",
+            ("nav_core_adapter::LocalPlannerAdapter", "missing"),
+            ":4: there is no local planner of type 'nav_core_adapter::LocalPlannerAdapter'",
+        ),
+        (
             "controller_frequency",
             "0.0",
             ("navfn/NavfnROS", "built in"),

@@ -52,3 +52,16 @@ def test_a_script_names_what_is_installed(monkeypatch):
     with running("gazelle-ros"), running("gazelle"):
         assert program_name() == "gazelle"
     assert "GAZELLE_PROGRAM" not in os.environ
+
+
+@pytest.mark.parametrize(("given", "seen"), [(None, "noetic"), ("melodic", "melodic")])
+def test_scripts_find_the_variables_that_ros_sets(tmp_path, monkeypatch, given, seen):
+    script = tmp_path / "which.py"
+    script.write_text("import os; print(os.environ['ROS_DISTRO'], os.environ['ROS_VERSION'])")
+    for name in ("ROS_DISTRO", "ROS_VERSION"):
+        monkeypatch.delenv(name, raising=False)
+    if given is not None:
+        monkeypatch.setenv("ROS_DISTRO", given)
+    command = [sys.executable, "-m", "gazelle_ros", "exec", str(script)]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert done.stdout.split() == [seen, "1"]

@@ -45,7 +45,7 @@ from gazelle.formats.urdf.parts import (
 )
 from gazelle.formats.urdf.schema import note_unknown
 from gazelle.formats.urdf.transmission import read_transmission
-from gazelle.formats.urdf.tree import ONLY_MACROS, LumpedLink, UrdfTree, bodies, read_tree
+from gazelle.formats.urdf.tree import LumpedLink, UrdfTree, bodies, read_tree, require_links
 from gazelle.formats.urdf.upright import upright
 
 _SDF = (1, 7)
@@ -61,9 +61,8 @@ def read_robot(root: Parameters, reading: Reading) -> Model:
     Raises:
         FormatError: The robot is not a tree, has no mass, or an element is wrong.
     """
-    name = root.attributes.get("name", "")
-    if not name:
-        raise values.fail(root, "the attribute 'name' is required in <robot>", hint=ONLY_MACROS)
+    require_links(root)
+    name = values.attribute(root, "name")
     note_unknown(root, reading)
     tree = read_tree(root, reading)
     extensions = read_extensions(root, reading)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from gazelle.description import Inertial, Parameters, Pose
-from gazelle.errors import did_you_mean
+from gazelle.errors import FormatError, did_you_mean
 from gazelle.formats import values
 from gazelle.formats.reading import Reading
 from gazelle.formats.urdf.elements import read_inertial
@@ -19,7 +19,21 @@ from gazelle.formats.urdf.upright import upright
 from gazelle.kinematics.joint_graph import JointGraph
 
 WORLD = "world"
-ONLY_MACROS = "a xacro file that only defines macros is meant to be included by another"
+_ONLY_MACROS = "a xacro file that only defines macros is meant to be included by another"
+
+
+class NoLinksError(FormatError):
+    """A robot without a link, as a xacro file has that only defines macros."""
+
+
+def require_links(root: Parameters) -> None:
+    """Check that a ``<robot>`` has links.
+
+    Raises:
+        NoLinksError: It has none.
+    """
+    if root.find("link") is None:
+        raise NoLinksError("a <robot> needs a <link>", source=root.source, hint=_ONLY_MACROS)
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,14 +101,14 @@ def read_tree(root: Parameters, reading: Reading) -> UrdfTree:
 
     Raises:
         FormatError: They are not one tree.
+        NoLinksError: There is none.
     """
+    require_links(root)
     links: dict[str, UrdfLink] = {}
     for node in root.find_all("link"):
         name = values.attribute(node, "name")
         _refuse_twice(node, name, links)
         links[name] = UrdfLink(name, read_inertial(node.find("inertial"), reading), node)
-    if not links:
-        raise values.fail(root, "a <robot> needs a <link>", hint=ONLY_MACROS)
     joints: dict[str, UrdfJoint] = {}
     for node in root.find_all("joint"):
         joint = read_joint(node, reading)

@@ -135,18 +135,23 @@ def local_planner(kind: str) -> MakeLocal:
     return cast("MakeLocal", _found(kind, _local, "local planner"))
 
 
+def names_class(kind: str) -> bool:
+    """Return whether a type is ``module:Class`` of Python, not ``namespace::Class`` of C++."""
+    return ":" in kind and "::" not in kind
+
+
 def _found(kind: str, table: Mapping[str, Any], what: str) -> Any:
     full = kind if kind in table else _SHORT.get(kind, kind)
     target = table.get(full, full)
     if not isinstance(target, str):
         return target
-    module, separator, attribute = target.partition(":")
-    if not separator:
+    if not names_class(target):
         hint = did_you_mean(kind, table)
         raise Error(
             f"there is no {what} of type '{kind}'",
             hint=f"{hint}; one of your own is named module:Class",
         )
+    module, _, attribute = target.partition(":")
     here = str(Path.cwd())
     if here not in sys.path:
         # As Python itself does for a script: a planner may lie beside the launch file.

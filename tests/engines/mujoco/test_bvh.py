@@ -4,12 +4,14 @@ import mujoco
 import numpy as np
 import pytest
 import scenes
+from mujoco.batch import Batch
 
 import gazelle
 from gazelle.description import Box, Collision, Cylinder, Link, Model, Pose, Sphere
 from gazelle.engines import make_engine
 from gazelle.engines.mujoco.compiler import spec
 from gazelle.engines.mujoco.compiler.options import PASSIVE_OFF
+from gazelle.geometry.bounding_volumes import tighten_hierarchies
 
 
 def heap():
@@ -54,6 +56,23 @@ def test_the_trees_are_other_ones(monkeypatch):
     monkeypatch.setattr(spec, "tighten_hierarchies", lambda model: None)
     theirs = make_engine("mujoco", heap()).running.batch.model
     assert (ours.bvh_child != theirs.bvh_child).any()
+
+
+def test_rays_meet_the_same_triangles_of_a_mesh():
+    scene = mujoco.MjSpec()
+    scene.add_mesh(name="mesh").make_supertorus(64, 0.4, 1.0, 1.0)
+    scene.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_MESH, meshname="mesh")
+    model = scene.compile()
+    theirs = model.bvh_child.copy()
+    chance = np.random.default_rng(1)
+    origins, ways = chance.uniform(-2.0, 2.0, (2, 500, 3))
+    ways /= np.linalg.norm(ways, axis=1)[:, None]
+    before = Batch(model, 1).ray(origins, ways, normal=True)
+    tighten_hierarchies(model)
+    assert (model.bvh_child != theirs).any()
+    assert (before[0] >= 0.0).sum() > 50
+    for old, new in zip(before, Batch(model, 1).ray(origins, ways, normal=True), strict=True):
+        np.testing.assert_array_equal(old, new)
 
 
 def test_idle_forces_are_left_out_and_nothing_is_different(monkeypatch):

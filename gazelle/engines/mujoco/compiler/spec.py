@@ -12,7 +12,6 @@ import mujoco
 
 from gazelle.description import Collision, Inertial, Model, Plane, Pose, World
 from gazelle.engines.free_links import warn_of_free_links, with_free_links
-from gazelle.engines.mujoco.compiler.bvh import tighten_hierarchies
 from gazelle.engines.mujoco.compiler.contact_pairs import (
     ContactGeom,
     Spring,
@@ -60,6 +59,7 @@ from gazelle.engines.mujoco.compiler.wheel_slip import (
 from gazelle.engines.mujoco.compiler.world_geoms import WorldGeoms
 from gazelle.engines.mujoco.contact_laws import LawSelection, finish, prepare
 from gazelle.errors import EngineError
+from gazelle.geometry.bounding_volumes import tighten_hierarchies
 from gazelle.kinematics.tree import Closure, KinematicTree, TreeLink, tree_of
 
 COLLISION_GROUP = 0

@@ -52,6 +52,9 @@ class CommandLine:
     """Made before a command is imported, and closed when it has ended."""
 
 
+_VARIABLES = {"ROS_DISTRO": "noetic", "ROS_VERSION": "1", "ROS_PYTHON_VERSION": "3"}
+"""Environment variables that launch files and scripts read, as ROS's setup files set them."""
+
 ROS = CommandLine(
     "gazelle-ros",
     __version__,
@@ -80,9 +83,12 @@ def inherited() -> CommandLine:
 
 
 def _main(argv: Sequence[str] | None, program: CommandLine) -> int:
-    if argv is None and not _open_streams():
-        _complain("the standard output is closed", "'>/dev/null' throws it away")
-        return FAILED
+    if argv is None:
+        if not _open_streams():
+            _complain("the standard output is closed", "'>/dev/null' throws it away")
+            return FAILED
+        for name, value in _VARIABLES.items():
+            os.environ.setdefault(name, value)
     arguments = translated(sys.argv[1:] if argv is None else argv)
     arguments, debug = _without_debug(arguments)
     if not arguments or arguments[0] in {"-h", "--help", "help"}:

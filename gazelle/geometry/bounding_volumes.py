@@ -1,19 +1,23 @@
-"""Trees of bounding boxes in which MuJoCo finds sooner what may touch.
+"""Trees of bounding boxes in which MuJoCo finds sooner what may touch, and what a ray meets.
 
 MuJoCo looks for what a shape may touch in the other body's tree of boxes, and the world itself is
 one body. It splits boxes into equal numbers along the longest side, with the ground among them,
 which is endless and makes every box above it endless. In the tree of ``BoxTree`` it visits half
 as many, and finds the same contacts in the same order: a burger's step in ROBOTIS' house takes a
-sixth less time.
+sixth less time. A ray finds the same triangle of a mesh of 25,000 in a quarter of the time.
 """
 
 from __future__ import annotations
 
-import mujoco
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from gazelle.array_types import Bools, Floats
 from gazelle.native.box_trees import BoxTree
+
+if TYPE_CHECKING:
+    import mujoco
 
 # Half a size that MuJoCo takes for endless [m]: it compares no further then.
 _ENDLESS = 1e10
@@ -23,22 +27,29 @@ _LIKELY = 0.8
 
 
 def tighten_hierarchies(model: mujoco.MjModel) -> None:
-    """Replace the bounding volume hierarchies of a compiled model's bodies by tighter ones."""
+    """Replace the bounding volume hierarchies of a compiled model by tighter ones."""
     model.vis.global_.bvactive = False  # or MuJoCo notes for viewers what it visits
     for start, count in zip(model.body_bvhadr, model.body_bvhnum, strict=True):
-        nodes = slice(start, start + count)
-        geoms, boxes = model.bvh_nodeid[nodes], model.bvh_aabb[nodes]
-        leaves = np.flatnonzero(geoms >= 0)
-        if count < 5 or count != 2 * len(leaves) - 1:
-            continue  # two shapes, for which there is one tree
-        tree = BoxTree(boxes[leaves])
-        bounds = tree.bounds
+        _tighten(model, slice(start, start + count), bodies=True)
+    for start, count in zip(model.mesh_bvhadr, model.mesh_bvhnum, strict=True):
+        _tighten(model, slice(start, start + count), bodies=False)
+
+
+def _tighten(model: mujoco.MjModel, nodes: slice, *, bodies: bool) -> None:
+    """Replace the nodes of one tree, of a body's shapes or a mesh's triangles."""
+    names, boxes = model.bvh_nodeid[nodes], model.bvh_aabb[nodes]
+    leaves = np.flatnonzero(names >= 0)
+    if len(names) < 5 or len(names) != 2 * len(leaves) - 1:
+        return  # two leaves, for which there is one tree
+    tree = BoxTree(boxes[leaves])
+    bounds = tree.bounds
+    if bodies:
         bounds[_likely(tree)] = (0, 0, 0, *[_ENDLESS] * 3)
-        names = np.append(geoms[leaves], -1)  # the last one is that of all that are no leaves
-        model.bvh_nodeid[nodes] = names[tree.leaf]
-        model.bvh_child[nodes] = tree.children
-        model.bvh_depth[nodes] = tree.depth
-        model.bvh_aabb[nodes] = bounds
+    names = np.append(names[leaves], -1)  # the last one is that of all that are no leaves
+    model.bvh_nodeid[nodes] = names[tree.leaf]
+    model.bvh_child[nodes] = tree.children
+    model.bvh_depth[nodes] = tree.depth
+    model.bvh_aabb[nodes] = bounds
 
 
 def _likely(tree: BoxTree) -> Bools:
