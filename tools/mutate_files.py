@@ -32,9 +32,10 @@ from pathlib import Path
 ROOT = Path(__file__).parent.parent
 sys.path.insert(0, str(ROOT / "tests" / "formats"))
 
-import mutated_readers  # noqa: E402  # found there
+import mutated_seeds  # noqa: E402  # found there
 import structured_mutations  # noqa: E402
-from mutated_readers import Seed  # noqa: E402
+from mutated_ros_readers import READERS  # noqa: E402
+from mutated_seeds import Seed  # noqa: E402
 
 GOOD, REFUSED, FOREIGN, DIED, LATE, LARGE = (
     "read",
@@ -193,7 +194,7 @@ def _tried(reader: str, path: Path) -> Outcome:
     from gazelle import Error
 
     try:
-        mutated_readers.READERS[reader](path)
+        READERS[reader](path)
     except Error as error:
         text = str(error)
         if any(ord(letter) > sys.maxunicode for letter in text):  # it could not be sent back
@@ -328,9 +329,7 @@ def main() -> None:
     parser.add_argument("--count", type=int, default=1000, help="broken files (default 1000)")
     parser.add_argument("--minutes", type=float, default=1e6, help="at most")
     parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument(
-        "--only", nargs="+", metavar="READER", help=", ".join(mutated_readers.READERS)
-    )
+    parser.add_argument("--only", nargs="+", metavar="READER", help=", ".join(READERS))
     parser.add_argument("--keep", type=lambda text: Path(text).absolute(), metavar="FOLDER")
     parser.add_argument("--again", type=Path, metavar="FOLDER", help="what an earlier run kept")
     args = parser.parse_args()
@@ -343,8 +342,8 @@ def main() -> None:
                 return
             made = Path(temporary) / "made"
             made.mkdir()
-            seeds = [*mutated_readers.make_seeds(made)]
-            seeds += [each for folder in args.folders for each in mutated_readers.seeds(folder)]
+            seeds = [*mutated_seeds.make_seeds(made)]
+            seeds += [each for folder in args.folders for each in mutated_seeds.seeds(folder)]
             seeds = [each for each in seeds if not args.only or each.reader in args.only]
             print(f"{len(seeds)} good files", flush=True)
             for count, found in enumerate(attempts(seeds, args, reader), 1):

@@ -7,6 +7,7 @@ viser sees it, and nothing is shared.
 
 from __future__ import annotations
 
+import asyncio
 import hmac
 import http.client
 import importlib
@@ -21,6 +22,7 @@ from urllib.parse import parse_qsl, urlsplit
 
 from gazelle.errors import Error, MissingExtraError
 from gazelle_ros.base.closing import Closeable
+from gazelle_ros.server_faults import report_shortages
 
 if TYPE_CHECKING:
     import viser
@@ -220,6 +222,7 @@ def _guarded(admit: Callable[..., Any]) -> Iterator[None]:
     def serve(handler: Any, *args: Any, **options: Any) -> Any:
         if not handler.__module__.startswith("viser."):
             return original(handler, *args, **options)
+        report_shortages(asyncio.get_running_loop(), "the page")
         inner = options.pop("process_request")
 
         def check_request(connection: Any, request: Any) -> Any:

@@ -1,4 +1,4 @@
-"""Python modules of the packages on ROS_PACKAGE_PATH, as their ``setup.py`` files name them."""
+"""Python modules of the packages on ROS_PACKAGE_PATH, as their ``setup.py`` files or install spaces have them."""
 
 from __future__ import annotations
 
@@ -31,10 +31,17 @@ def named_spec(name: str) -> ModuleSpec | None:
 
 
 def usual_spec(name: str) -> ModuleSpec | None:
-    """Return the spec of the code of a package at ``src/NAME``, where no ``setup.py`` names it."""
+    """Return the spec of code that no ``setup.py`` names: at ``src/NAME``, or in an install space."""
     folder = find_packages().get(name)
     source = None if folder is None else folder / "src" / name
-    return _package(name, source) if source and (source / "__init__.py").is_file() else None
+    if source and (source / "__init__.py").is_file():
+        return _package(name, source)
+    for site in _sites(package_path()):
+        if (site / name / "__init__.py").is_file():
+            return _package(name, site / name)
+        if (site / f"{name}.py").is_file():
+            return importlib.util.spec_from_file_location(name, site / f"{name}.py")
+    return None
 
 
 def comes_after(spec: ModuleSpec) -> bool:
@@ -69,3 +76,14 @@ def _all_code(path: str) -> PythonCode:
         for name, at in code.modules.items():
             modules.setdefault(name, at)
     return PythonCode(packages, modules)
+
+
+@functools.cache
+def _sites(path: str) -> list[Path]:
+    """Return folders of Python modules of install spaces, which have packages in ``share``."""
+    folders = find_packages(path).values()
+    spaces = dict.fromkeys(each.parent.parent for each in folders if each.parent.name == "share")
+    kinds = sorted(_SITES)
+    return [
+        site for at in spaces for kind in kinds for site in sorted(at.glob(f"lib/python3*/{kind}"))
+    ]

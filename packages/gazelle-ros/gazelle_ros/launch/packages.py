@@ -171,10 +171,14 @@ class Packages:
         return f"it has launch files: {program_name()} launch {package} {' | '.join(files)}"
 
     def _spaces(self, package: str, folder: Path) -> Iterator[Path]:
-        """Install and devel spaces that may hold a package, the nearest first."""
+        """Yield install and devel spaces that may hold a package, the nearest first.
+
+        Spaces of CMAKE_PREFIX_PATH with another copy of it are left out: it lies over that one.
+        """
         seen: set[Path] = set()
         prefixes = self._environment.get("CMAKE_PREFIX_PATH", "").split(os.pathsep)
-        candidates = [Path(prefix) for prefix in prefixes if prefix]
+        spaces = [Path(prefix) for prefix in prefixes if prefix]
+        candidates = [space for space in spaces if not _holds_another(space, package, folder)]
         if folder.parent.name == "share":
             candidates.insert(0, folder.parent.parent)
         workspace = next((parent for parent in folder.parents if parent.name == "src"), None)
@@ -185,6 +189,14 @@ class Packages:
             if space not in seen:
                 seen.add(space)
                 yield space
+
+
+def _holds_another(space: Path, package: str, folder: Path) -> bool:
+    """Return whether a space has a package of this name in another folder than this."""
+    other = space / "share" / package
+    if not (can_be_path(other) and (other / "package.xml").is_file()):
+        return False
+    return not (folder.is_dir() and other.samefile(folder))
 
 
 def is_python(path: Path) -> bool:

@@ -23,12 +23,15 @@ from gazelle_ros.rosbridge.fragments import split_text
 from gazelle_ros.rosbridge.origins import may_connect
 from gazelle_ros.rosbridge.session import BridgeContext, BridgeSession
 from gazelle_ros.rosbridge.settings import BridgeSettings
+from gazelle_ros.server_faults import HandshakeFilter, report_shortages
 
 if TYPE_CHECKING:
     from websockets.asyncio.server import Server, ServerConnection
     from websockets.http11 import Request, Response
 
 LOG = logging.getLogger("gazelle.rosbridge")
+_CONNECTIONS = logging.getLogger("gazelle.rosbridge.websockets")
+_CONNECTIONS.addFilter(HandshakeFilter("rosbridge"))
 _STARTING_S = 30.0
 _SMALL = 4096  # bytes; what is longer is encoded off the server's thread
 _TOO_SLOW = 1008  # WebSocket's code for a client that breaks the server's rules
@@ -59,6 +62,7 @@ class BridgeServer(Closeable):
         self._clients = ClientList(node)
         self._fragment_numbers = itertools.count(1)
         self._loop = asyncio.new_event_loop()
+        report_shortages(self._loop, "rosbridge")
         self._stop = asyncio.Event()
         self._started = threading.Event()
         self._errors: list[Exception] = []
@@ -112,7 +116,7 @@ class BridgeServer(Closeable):
             ping_timeout=settings.websocket_ping_timeout if ping else None,
             close_timeout=2,
             ssl=context,
-            logger=logging.getLogger("gazelle.rosbridge.websockets"),
+            logger=_CONNECTIONS,
         ) as server:
             self.port = _port_of(server)
             self._started.set()
