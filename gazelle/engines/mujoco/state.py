@@ -19,6 +19,8 @@ class StateViews:
     Attributes:
         faults: Counts of bad positions, velocities, accelerations and commands, shape
             (nworld, 4).
+        overflows: Counts of steps in which contacts, and rows of constraints, did not fit into
+            memory, shape (nworld, 2).
 
     The others are the fields of ``mjData`` of their names.
     """
@@ -31,11 +33,13 @@ class StateViews:
     qfrc_applied: Floats
     xfrc_applied: Floats
     faults: NDArray[np.int32]
+    overflows: NDArray[np.int32]
 
     @classmethod
     def of(cls, batch: Batch) -> StateViews:
         """Return the views of a batch."""
         first, last = mujoco.mjtWarning.mjWARN_BADQPOS, mujoco.mjtWarning.mjWARN_BADCTRL
+        contacts, rows = mujoco.mjtWarning.mjWARN_CONTACTFULL, mujoco.mjtWarning.mjWARN_CNSTRFULL
         return cls(
             qpos=batch.bind("qpos"),
             qvel=batch.bind("qvel"),
@@ -45,6 +49,7 @@ class StateViews:
             qfrc_applied=batch.bind("qfrc_applied"),
             xfrc_applied=batch.bind("xfrc_applied"),
             faults=batch.warning[:, int(first) : int(last) + 1, 1],
+            overflows=batch.warning[:, int(contacts) : int(rows) + 1, 1],
         )
 
 

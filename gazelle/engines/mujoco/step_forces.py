@@ -44,6 +44,7 @@ class ForcedSteps:
         self._run, self._motion = run, motion
         self.holds_back = False
         self._spun = False  # whether it was said that something turns too fast
+        self._full = False  # whether it was said that contacts are left out
         self._plain: tuple[MujocoLayout, World] | None = None  # where no such force ever acts
 
     def advance(self, count: int) -> set[int]:
@@ -77,11 +78,25 @@ class ForcedSteps:
             self._run.batch.step(nstep=count)
         except SimulationError as error:
             failed = {int(world) for world in error.ids}
+        if not self._full and np.count_nonzero(self._run.state.overflows):
+            self._warn_of_full_memory()
         if spun[0]:
             spun[0] = 0.0
             if not failed and not np.count_nonzero(self._run.state.faults):
                 self._warn_of_spin()
         return failed
+
+    def _warn_of_full_memory(self) -> None:
+        """Warn once that contacts are left out."""
+        self._full = True
+        world = int(self._run.state.overflows.any(axis=1).argmax())
+        warnings.warn(
+            EngineWarning(
+                f"there are more contacts than MuJoCo has memory for, and some are left out (first: "
+                f"world {world}). Use fewer or simpler collision shapes"
+            ),
+            stacklevel=5,
+        )
 
     def _warn_of_spin(self) -> None:
         """Warn once that the physics step is too long for how fast something turns."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import re
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field, fields
 from typing import Any
 
@@ -261,10 +262,18 @@ def _row(values: Values, name: str, size: int) -> Floats | None:
     value = values.get(name)
     if value is None:
         return None
-    numbers = [finite(each) for each in value] if isinstance(value, list) else [None]
+    numbers = [_number(each) for each in value] if isinstance(value, list) else [None]
     if None in numbers or len(numbers) != size:
         raise Error(f"the parameter '{name}' is a list of {size} numbers, not {value!r:.60}")
     return np.array(numbers, float)
+
+
+def _number(value: object) -> float | None:
+    """Return a number, also of text: YAML has ``1e-9``, without a point, as text."""
+    if isinstance(value, str):
+        with suppress(ValueError):
+            return finite(float(value))
+    return finite(value)
 
 
 def _matrix(values: Values, name: str) -> Floats | None:

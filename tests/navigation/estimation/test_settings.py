@@ -47,6 +47,16 @@ def test_control_uses_the_limits_of_acceleration_for_braking():
     assert control.deceleration_gains.tolist() == [2.0] * 6
 
 
+def test_numbers_of_covariances_may_be_text():
+    """YAML has ``1e-9``, without a point, as text."""
+    diagonal = np.diag([1e-9] * 15).ravel().tolist()
+    written = ["1e-9" if each else 0 for each in diagonal]
+    settings = FilterSettings.read({"initial_estimate_covariance": written})
+    np.testing.assert_array_equal(settings.initial_covariance, np.diag([1e-9] * 15))
+    with pytest.raises(Error, match="a list of 225 numbers"):
+        FilterSettings.read({"initial_estimate_covariance": ["nan"] * 225})
+
+
 @pytest.mark.parametrize(
     ("values", "text"),
     [

@@ -332,6 +332,13 @@ def test_what_is_ignored_is_noticed(load, body, message):
     assert "main.launch:2:" in notice
 
 
+def test_schemas_are_not_noticed(workspace):
+    xsi = "http://www.w3.org/2001/XMLSchema-instance"
+    file = workspace / "robot" / "launch" / "schema.launch"
+    file.write_text(f'<launch xmlns:xsi="{xsi}" xsi:noNamespaceSchemaLocation="l.xsd"/>')
+    assert load_launch(file, packages=Packages()).notices == []
+
+
 def test_namespaces_are_cleared(load):
     plan = load(
         f'<group ns="g" clear_params="true">{node("n", clear_params="true").replace("clear-", "clear_")}</group>'

@@ -12,6 +12,7 @@ import mujoco
 
 from gazelle.description import Collision, Inertial, Model, Plane, Pose, World
 from gazelle.engines.free_links import warn_of_free_links, with_free_links
+from gazelle.engines.mujoco.compiler.constraint_memory import with_memory
 from gazelle.engines.mujoco.compiler.contact_pairs import (
     ContactGeom,
     Spring,
@@ -147,7 +148,7 @@ class Draft:
             EngineError: Something in the description cannot be simulated.
         """
         try:
-            compiled = self.spec.compile()
+            compiled = with_memory(self.spec, self.spec.compile())
         except ValueError as error:
             raise EngineError(f"MuJoCo cannot simulate this world: {_first_line(error)}") from error
         if as_written:

@@ -42,6 +42,8 @@ ATTRIBUTES = {
     "test": nodes.TEST_ATTRIBUTES,
 }  # fmt: skip
 """Attributes by element, besides ``if`` and ``unless``."""
+_NAMESPACES = ("xmlns", "xsi")
+"""Prefixes of attributes that name schemas, and say nothing to a reader of the file."""
 
 
 def load_launch(
@@ -212,6 +214,8 @@ class _Loader:
     def _check_attributes(self, element: Element) -> None:
         known = ATTRIBUTES[element.tag.lower()]
         for key in element.attributes:
+            if key.partition(":")[0] in _NAMESPACES:
+                continue
             if key not in known and key not in {"if", "unless"}:
                 hint = did_you_mean(key, [*known, "if", "unless"])
                 self._notice(element, f"unknown attribute '{key}', ignored; {hint}")
