@@ -237,7 +237,7 @@ class ScanAssembler(CloudAssembler):
             channels["intensity"] = np.asarray(found.intensities[kept], np.float64)
         channels["index"] = kept.astype(np.float64)
         if not self._still:
-            channels["distances"] = found.ranges[kept]
+            channels["distances"] = np.asarray(found.ranges[kept], np.float64)
             channels["stamps"] = kept * found.time_increment
         return CloudPart(found.stamp, points[kept], channels)
 
