@@ -37,7 +37,7 @@ class FallWatch:
         self._engine = engine
         self._period = 0
         self._warned: set[str] = set()
-        self._world: World | None = None
+        self._seen: tuple[World, int] | None = None
         self._watched: list[Model] = []
         self._links: LinkRows | None = None
         self._lowest: Floats = np.zeros(0)
@@ -48,8 +48,10 @@ class FallWatch:
         if period == self._period:
             return
         self._period = period
-        if self._world is not self._engine.world:
-            self._watch(self._engine.world)
+        seen = self._engine.world, self._engine.revision
+        if self._seen is None or seen[1] != self._seen[1] or seen[0] is not self._seen[0]:
+            self._seen = seen
+            self._watch(seen[0])
         if self._links is None:
             return
         heights = self._links.placement().position[:, :, 2]
@@ -62,12 +64,13 @@ class FallWatch:
                 self._judge(model, world, float(heights[world, column]), now_ns / 1e9)
 
     def _watch(self, world: World) -> None:
-        """Start watching the models of a world."""
-        self._world = world
+        """Start watching the models of a world that can fall."""
+        calls = self._engine.history()
+        held = {call.arguments[0] for call in calls if call.method == "make_kinematic"}
         self._watched = [
             model
             for model in world.models
-            if not model.static and model.links and model.name not in self._warned
+            if not model.static and model.links and model.name not in self._warned | held
         ]
         if self._watched:
             down = RangeRays(_first_link(self._watched[0]), np.zeros((1, 3)), _DOWN[None])
