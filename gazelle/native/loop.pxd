@@ -23,7 +23,7 @@ cdef class SystemLoop:
     cdef void _play_together(self, Py_ssize_t part, Py_ssize_t threads, long long until) noexcept nogil
     cdef long long _next_block(self) noexcept nogil
     cdef void _wait_for_all(self, Py_ssize_t threads) noexcept nogil
-    cdef void _update_due(self, Py_ssize_t row, long long late) noexcept nogil
+    cdef object _update_due(self, Py_ssize_t row, long long late)
     cdef long long _steps_to_due(self, Py_ssize_t row, long long until) noexcept nogil
     cdef void _pass_within(self, Py_ssize_t row) noexcept nogil
     cdef void _pass(self, Py_ssize_t row, long long until) noexcept nogil

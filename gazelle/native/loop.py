@@ -40,6 +40,9 @@ class Pool(Protocol):
     def call(self, work: Callable[[int], Any], parts: int) -> list[Any]:
         """Call ``work(part)`` for each part, all at the same time."""
 
+    def update(self, system: System, nworld: int, time: int) -> None:
+        """Update all rows of a system."""
+
 
 @cython.cclass
 class SystemLoop:
@@ -105,7 +108,10 @@ class SystemLoop:
         threads = most if threads < 1 else min(threads, most)
         blocks: cython.Py_ssize_t = min(self.nworld, threads * BLOCKS_A_THREAD)
         alone: cython.bint = threads == 1 or self.nworld >= 2 * threads
-        for index, system in enumerate(self.systems):
+        index: cython.Py_ssize_t
+        system: System
+        for index in range(self._due.shape[1]):
+            system = self.systems[index]
             self._due[most, index] = system.due
         self._shared[0] = self._shared[APART] = self._shared[APART + 1] = 0
 
@@ -120,7 +126,8 @@ class SystemLoop:
         else:
             self._pool.call(work, threads)
         self._pass(most, until)
-        for index, system in enumerate(self.systems):
+        for index in range(self._due.shape[1]):
+            system = self.systems[index]
             system.due = self._due[most, index]
 
     def run_around(self, until: cython.longlong, advance: Callable[[int], object]) -> None:
@@ -142,15 +149,15 @@ class SystemLoop:
         self._end[0] = self.time
         try:
             while self.time < until:
+                self._update_due(row, 0)
                 with cython.nogil:
-                    self._update_due(row, 0)
                     steps = self._steps_to_due(row, until)
                     self._end[0] = self.time + steps * self.step
                 advance(steps)
                 self.time = self._end[0]
                 with cython.nogil:
                     self._pass_within(row)
-                    self._update_due(row, 1)
+                self._update_due(row, 1)
         finally:
             self._pass_within(row)
             for index in range(self._due.shape[1]):
@@ -174,16 +181,24 @@ class SystemLoop:
         )
 
     @cython.cfunc
-    @cython.nogil
-    @cython.exceptval(check=False)
-    def _update_due(self, row: cython.Py_ssize_t, late: cython.longlong) -> cython.void:
-        """Update the systems that are due at this time, those that are late or the others."""
+    def _update_due(self, row: cython.Py_ssize_t, late: cython.longlong) -> Any:
+        """Update the systems that are due at this time, those that are late or the others.
+
+        Those that are late measure, and threads share them if there is enough for each.
+        """
         index: cython.Py_ssize_t
         for index in range(self._table.shape[0]):
             acts: cython.longlong = self._table[index, ACTS]
             between: cython.bint = acts == BETWEEN or acts == AHEAD  # noqa: PLR1714  of C
-            if between and self._table[index, LATE] == late and self._is_due(row, index, self.time):
-                self._update(index, 0, self.nworld * self._table[index, ROWS], self.time, 1)
+            if not between or self._table[index, LATE] != late:
+                continue
+            if not self._is_due(row, index, self.time):
+                pass
+            elif late and self._pool is not None and self._table[index, DIVISIBLE]:
+                self._pool.update(self.systems[index], self.nworld, self.time)
+            else:
+                with cython.nogil:
+                    self._update(index, 0, self.nworld * self._table[index, ROWS], self.time, 1)
 
     @cython.cfunc
     @cython.nogil

@@ -37,3 +37,14 @@ cdef inline void call_five(
     size_t function, size_t a, size_t b, size_t c, size_t d, int e
 ) noexcept nogil:
     (<Five>function)(a, b, c, d, e)
+
+
+ctypedef double (*Ray)(
+    size_t, size_t, size_t, size_t, size_t, unsigned char, int, size_t, size_t) noexcept nogil
+
+
+cdef inline double call_ray(
+    size_t function, size_t a, size_t b, size_t c, size_t d, size_t e, unsigned char f, int g,
+    size_t h, size_t i
+) noexcept nogil:
+    return (<Ray>function)(a, b, c, d, e, f, g, h, i)

@@ -48,3 +48,12 @@ def call_four(function: int, a: int, b: int, c: int, d: int) -> None:
 def call_five(function: int, a: int, b: int, c: int, d: int, e: int) -> None:
     """Call a C function of four addresses and an int."""
     ctypes.CFUNCTYPE(None, *[ctypes.c_size_t] * 4, ctypes.c_int)(function)(a, b, c, d, e)
+
+
+def call_ray(
+    function: int, a: int, b: int, c: int, d: int, e: int, f: int, g: int, h: int, i: int
+) -> float:
+    """Call a C function of five addresses, a byte, an int and two addresses; return a double."""
+    address = ctypes.c_size_t
+    kinds = (*[address] * 5, ctypes.c_uint8, ctypes.c_int, address, address)
+    return float(ctypes.CFUNCTYPE(ctypes.c_double, *kinds)(function)(a, b, c, d, e, f, g, h, i))

@@ -66,42 +66,66 @@ class CarriedRays:
 
     def point(self, position: Any, quaternion: Any, beside: Any) -> None:
         """Do what ``aim`` says."""
-        rays = self.carried.shape[1]
         for n in range(position.shape[0]):
             for frame in range(self.carried.shape[0]):
-                x, y = quaternion[n, frame, 0], quaternion[n, frame, 1]
-                z, w = quaternion[n, frame, 2], quaternion[n, frame, 3]
-                px = position[n, frame, 0] + beside[0]
-                py = position[n, frame, 1] + beside[1]
-                pz = position[n, frame, 2] + beside[2]
-                for ray in range(rays):
-                    at = frame * rays + ray
-                    a, b = self.carried[frame, ray, 0], self.carried[frame, ray, 1]
-                    c = self.carried[frame, ray, 2]
-                    i, j, k = 2.0 * (y * c - z * b), 2.0 * (z * a - x * c), 2.0 * (x * b - y * a)
-                    self.starts[n, at, 0] = px + (a + w * i + (y * k - z * j))
-                    self.starts[n, at, 1] = py + (b + w * j + (z * i - x * k))
-                    self.starts[n, at, 2] = pz + (c + w * k + (x * j - y * i))
-                    a, b = self.pointed[frame, ray, 0], self.pointed[frame, ray, 1]
-                    c = self.pointed[frame, ray, 2]
-                    i, j, k = 2.0 * (y * c - z * b), 2.0 * (z * a - x * c), 2.0 * (x * b - y * a)
-                    self.alongs[n, at, 0] = a + w * i + (y * k - z * j)
-                    self.alongs[n, at, 1] = b + w * j + (z * i - x * k)
-                    self.alongs[n, at, 2] = c + w * k + (x * j - y * i)
+                self.point_frame(
+                    n,
+                    frame,
+                    position[n, frame, 0] + beside[0],
+                    position[n, frame, 1] + beside[1],
+                    position[n, frame, 2] + beside[2],
+                    quaternion[n, frame, 0],
+                    quaternion[n, frame, 1],
+                    quaternion[n, frame, 2],
+                    quaternion[n, frame, 3],
+                )
+
+    def point_frame(
+        self,
+        n: int,
+        frame: int,
+        px: float,
+        py: float,
+        pz: float,
+        x: float,
+        y: float,
+        z: float,
+        w: float,
+    ) -> None:
+        """Compute ``start`` and ``along`` of a frame in a world, from its position and quaternion."""
+        rays = self.carried.shape[1]
+        for ray in range(rays):
+            at = frame * rays + ray
+            a, b = self.carried[frame, ray, 0], self.carried[frame, ray, 1]
+            c = self.carried[frame, ray, 2]
+            i, j, k = 2.0 * (y * c - z * b), 2.0 * (z * a - x * c), 2.0 * (x * b - y * a)
+            self.starts[n, at, 0] = px + (a + w * i + (y * k - z * j))
+            self.starts[n, at, 1] = py + (b + w * j + (z * i - x * k))
+            self.starts[n, at, 2] = pz + (c + w * k + (x * j - y * i))
+            a, b = self.pointed[frame, ray, 0], self.pointed[frame, ray, 1]
+            c = self.pointed[frame, ray, 2]
+            i, j, k = 2.0 * (y * c - z * b), 2.0 * (z * a - x * c), 2.0 * (x * b - y * a)
+            self.alongs[n, at, 0] = a + w * i + (y * k - z * j)
+            self.alongs[n, at, 1] = b + w * j + (z * i - x * k)
+            self.alongs[n, at, 2] = c + w * k + (x * j - y * i)
 
     def judge(self, sheet: Any, signed: bool) -> None:  # noqa: FBT001  of C
         """Do what ``settle`` says."""
         for n in range(self.distances.shape[0]):
-            for ray in range(self.distances.shape[1]):
-                out = (
-                    self.normals[n, ray, 0] * self.alongs[n, ray, 0]
-                    + self.normals[n, ray, 1] * self.alongs[n, ray, 1]
-                    + self.normals[n, ray, 2] * self.alongs[n, ray, 2]
-                )
-                geom = self.geoms[n, ray]
-                within = out > 0.0 and geom >= 0 and sheet[geom] == 0
-                self.insides[n, ray] = within
-                if self.distances[n, ray] < 0.0:
-                    self.distances[n, ray] = INF
-                if within and signed:
-                    self.distances[n, ray] = -INF
+            self.judge_some(n, 0, self.distances.shape[1], sheet, signed)
+
+    def judge_some(self, n: int, first: int, last: int, sheet: Any, signed: bool) -> None:  # noqa: FBT001  of C
+        """Do what ``settle`` says of some rays of one world."""
+        for ray in range(first, last):
+            out = (
+                self.normals[n, ray, 0] * self.alongs[n, ray, 0]
+                + self.normals[n, ray, 1] * self.alongs[n, ray, 1]
+                + self.normals[n, ray, 2] * self.alongs[n, ray, 2]
+            )
+            geom = self.geoms[n, ray]
+            within = out > 0.0 and geom >= 0 and sheet[geom] == 0
+            self.insides[n, ray] = within
+            if self.distances[n, ray] < 0.0:
+                self.distances[n, ray] = INF
+            if within and signed:
+                self.distances[n, ray] = -INF

@@ -11,6 +11,7 @@ from typing import Any
 
 from gazelle.errors import EngineError
 from gazelle.native.processors import processors
+from gazelle.native.system import System
 
 
 class _Worker:
@@ -95,6 +96,20 @@ class WorkerPool:
             return [work(0, count, 0)]
         ends = [count * part // parts for part in range(parts + 1)]
         return self.call(lambda part: work(ends[part], ends[part + 1], part), parts)
+
+    def update(self, system: System, nworld: int, time: int) -> None:
+        """Update all rows of a system, on several threads where that is worth it.
+
+        Args:
+            system: System.
+            nworld: Number of worlds.
+            time: Simulated time [ns].
+        """
+        rows = nworld * system.rows
+        if self.size < 2 or rows < 2 * system.least:
+            system.bring(0, rows, time)
+        else:
+            self.share(lambda first, last, _: system.bring(first, last, time), rows, system.least)
 
     def call(self, work: Callable[[int], Any], parts: int) -> list[Any]:
         """Call ``work(part)`` for at most so many parts at once, at least one; what they return.

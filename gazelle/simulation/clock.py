@@ -131,12 +131,12 @@ class Schedule:
     def copy(self) -> Schedule:
         """Return a schedule that is due at the same times."""
         made = Schedule(self.rate)
-        made.count = self.count
+        made._count, made.due_ns = self._count, self.due_ns
         return made
 
     def follow(self, due_ns: int) -> None:
         """Set the time [ns] at which it is due next."""
-        if due_ns != self.due_ns and self._rate > 0.0:
+        if self._rate > 0.0:
             try:
                 self._count, self.due_ns = round(due_ns * self._rate / NANOSECONDS), due_ns
             except OverflowError:

@@ -102,7 +102,7 @@ class SensorGroup:
         if self.kernel is None:
             return np.ascontiguousarray(self._values[:, part]), self._stamp
         values, stamp = self._measured.latest
-        return np.ascontiguousarray(values[:, part]), int(stamp[0, part])
+        return values[:, part].copy(), int(stamp[0, part])
 
     def release(self) -> None:
         """Return all sensors to measuring alone."""

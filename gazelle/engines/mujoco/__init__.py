@@ -1,6 +1,11 @@
 """The 3-D engine: MuJoCo. Only this package knows MuJoCo's names and quaternion order."""
 
+from pathlib import Path
+
 from gazelle.engines.mujoco.installation import check_installation
+from gazelle.native import search_path
+
+__path__ = search_path([str(Path(__file__).parent)])
 
 check_installation()  # before anything here imports a MuJoCo that may be half overwritten
 

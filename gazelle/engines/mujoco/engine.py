@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -25,7 +25,7 @@ from gazelle.engines.mujoco.contacts import ContactAccess
 from gazelle.engines.mujoco.joint_wrenches import JointReactions
 from gazelle.engines.mujoco.library import settle
 from gazelle.engines.mujoco.parameters import ParameterStore
-from gazelle.engines.mujoco.rays import RangeFinders
+from gazelle.engines.mujoco.rays import MujocoRanges, RaySpaces
 from gazelle.engines.mujoco.state import rows_of
 from gazelle.engines.mujoco.step import WorldSteps
 from gazelle.engines.mujoco.step_forces import ForcedSteps
@@ -34,12 +34,14 @@ from gazelle.engines.mujoco.tables.links import MujocoLinkRow, MujocoLinkRows
 from gazelle.engines.mujoco.tables.models import MujocoModelRow, MujocoModelRows
 from gazelle.engines.mujoco.tables.root_poses import note_moves
 from gazelle.engines.mujoco.worlds import RunningWorlds
+from gazelle.engines.range_rays import RangeRays, RangeTable
 from gazelle.engines.state import JointRow, JointRows, LinkRow, LinkRows, ModelRow, ModelRows
 from gazelle.engines.table import Table
 from gazelle.errors import EngineError, did_you_mean
 from gazelle.native.joint_system import JointSystem
 from gazelle.native.processors import processors
 from gazelle.native.system import System
+from gazelle.native.worker_pool import WorkerPool
 
 # Integrators that look at forces once in a step.
 _ONCE = (
@@ -94,7 +96,8 @@ class MujocoEngine:
         if step != world.profile.max_step_size:
             world = with_profile(world, replace(world.profile, max_step_size=step))
         check_world(world)
-        make_batch = partial(self._batch_of, nworld, min(threads or processors(), nworld))
+        self._pool = WorkerPool(min(threads or processors(), nworld))
+        make_batch = partial(self._batch_of, nworld, self._pool.size)
         self.running = RunningWorlds(
             CompilerInput(world, step), nworld, make_batch, calls=self._calls_systems
         )
@@ -125,14 +128,14 @@ class MujocoEngine:
             lambda names: MujocoModelRows(run, names, self.links),
         )
         hanging = HangingLinks(lambda: run.world, self.links, self.joints)
-        holding, rays = LinkHolding(run, self.links), RangeFinders(run, self.links)
+        holding = LinkHolding(run, self.links)
         self.attach, self.detach = holding.attach, holding.detach
-        self.range_kind, self.range_table = rays.range_kind, rays.range_table
         self.add_motor, self.make_kinematic = run.add_motor, run.make_kinematic
         self.parameter, self.set_parameter = run.parameter, run.set_parameter
         touches = ContactAccess(run, steps, self.reactions)
         self.contacts = touches.contacts
-        self._made = WorldSteps(run, steps, self.reset, self._acts_in_step)
+        self._made = WorldSteps(run, steps, self.reset, self._acts_in_step, self._pool)
+        self._spaces: RaySpaces | None = None
 
     def _acts_in_step(self) -> bool:
         """Return whether steps can call systems of joints: the integrator looks once at forces."""
@@ -184,10 +187,24 @@ class MujocoEngine:
         """Update a system now, whatever its rate; one of joints reads them and acts on them."""
         if isinstance(system, JointSystem):
             system.read(self._run.state.qpos, self._run.state.qvel)
-        system.bring(0, self._run.nworld * system.rows, now_ns)
+            system.bring(0, self._run.nworld, now_ns)
+        else:
+            self._pool.update(system, self._run.nworld, now_ns)
         if isinstance(system, JointSystem):
             system.act(self._run.state.qfrc_applied, self._run.state.userdata)
             self._run.stale = True
+
+    def range_kind(self, rays: RangeRays) -> Hashable | None:
+        """Return what is equal for rays that ``range_table`` casts together."""
+        return len(rays.origins)
+
+    def range_table(self, rays: Sequence[RangeRays]) -> RangeTable:
+        """Return a table of range finders of one kind."""
+        run = self._run
+        run.now()
+        if self._spaces is None or self._spaces.compiled is not run.compiled.model:
+            self._spaces = RaySpaces(run.compiled.model, self._pool.size)
+        return MujocoRanges(run, rays, self._spaces, self.update)
 
     def reset(self, worlds: Worlds | None = None) -> None:
         """Reset worlds to their initial state: poses, rest, no forces."""
@@ -348,4 +365,5 @@ class MujocoEngine:
 
     def close(self) -> None:
         """Free threads and memory; the engine must not be used any more."""
+        self._pool.close()
         self._run.end()

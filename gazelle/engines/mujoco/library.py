@@ -34,6 +34,11 @@ def address_of(name: str) -> int:
     return ctypes.cast(getattr(library, name), ctypes.c_void_p).value or 0
 
 
+def address_of_struct(struct: mujoco.MjModel | mujoco.MjData) -> int:
+    """Return the address of a model or its data in memory, for compiled code."""
+    return int(struct._address)  # noqa: SLF001  the only way to it
+
+
 def _stop_timing() -> None:
     """Remove MuJoCo's clock, which the Python module has no function for.
 

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Sequence
+from collections.abc import Callable, Sequence
+from copy import copy
 
+import mujoco
 import numpy as np
 
 from gazelle.array_types import Floats, Worlds
+from gazelle.description import Pose
 from gazelle.engines.motion import Hits, Placement
 from gazelle.engines.mujoco.compiler.shapes import CLOSED_GROUP, OPEN_GROUP
 from gazelle.engines.mujoco.compiler.spec import COLLISION_GROUP
+from gazelle.engines.mujoco.library import address_of, address_of_struct
+from gazelle.engines.mujoco.ray_system import RaySystem
 from gazelle.engines.mujoco.worlds import RunningWorlds
 from gazelle.engines.range_rays import RangeRays
-from gazelle.engines.state import LinkRow, LinkRows
-from gazelle.engines.table import Table
 from gazelle.native.ray_frames import CarriedRays
 from gazelle.native.system import System
 
@@ -24,6 +27,8 @@ _GROUPS = np.array([group in _SEEN for group in range(6)], dtype=np.uint8)
 # if they meet the edge but for single precision, as the middle of a symmetric thing is met.
 BESIDE = 3e-6 * np.array([0.613, 0.371, 0.697])
 _NOWHERE = np.zeros(3)
+
+_SLEEP = int(mujoco.mjtEnableBit.mjENBL_SLEEP)
 
 # How far behind a surface that is passed through a ray continues [m].
 _BEHIND = 1e-6
@@ -113,24 +118,28 @@ def cast_from(
     return Hits(cast.distance, cast.inside)
 
 
-class RangeFinders:
-    """The part of ``gazelle.engines.engine.Engine`` for range finders.
+class RaySpaces:
+    """``mjData`` for threads that cast rays; see ``gazelle.engines.mujoco.ray_system.Workspaces``.
 
-    Args:
-        run: Worlds that run.
-        links: Links of all models.
+    Attributes:
+        compiled: Model of the worlds.
     """
 
-    def __init__(self, run: RunningWorlds, links: Table[LinkRow, LinkRows]) -> None:
-        self._run, self._links = run, links
+    def __init__(self, compiled: mujoco.MjModel, count: int) -> None:
+        self.compiled = compiled
+        self._model = compiled
+        if compiled.opt.enableflags & _SLEEP:  # in what sleeps nothing would be computed
+            self._model = copy(compiled)
+            self._model.opt.enableflags &= ~_SLEEP
+        self._data = [mujoco.MjData(self._model) for _ in range(count)]
+        self.model = address_of_struct(self._model)
+        self.table = np.array([self._addresses(each) for each in self._data], np.int64)
+        self.kinematics, self.ray = address_of("mj_kinematics"), address_of("mj_ray")
 
-    def range_kind(self, rays: RangeRays) -> Hashable | None:
-        """Return what is equal for rays that ``range_table`` casts together."""
-        return len(rays.origins)
-
-    def range_table(self, rays: Sequence[RangeRays]) -> MujocoRanges:
-        """Return a table of range finders of one kind."""
-        return MujocoRanges(self._run, self._links, rays)
+    @staticmethod
+    def _addresses(data: mujoco.MjData) -> list[int]:
+        fields = data.qpos, data.mocap_pos, data.mocap_quat, data.xpos, data.xquat
+        return [0, address_of_struct(data), *(each.ctypes.data for each in fields)]
 
 
 class MujocoRanges:
@@ -138,36 +147,53 @@ class MujocoRanges:
 
     Args:
         run: Worlds that run.
-        links: Links of all models.
         rays: Rays of each range finder.
+        spaces: For threads that cast them.
+        update: Updates a system now.
     """
 
-    system: System | None = None
-    ranges: Floats = np.zeros((0, 0))
     begin = 0.0
 
     def __init__(
-        self, run: RunningWorlds, links: Table[LinkRow, LinkRows], rays: Sequence[RangeRays]
+        self,
+        run: RunningWorlds,
+        rays: Sequence[RangeRays],
+        spaces: RaySpaces,
+        update: Callable[[System], None],
     ) -> None:
-        self._run, self._links = run, links[tuple(each.link for each in rays)]
-        self._rays = (
-            np.array([each.origins for each in rays]),
-            np.array([each.directions for each in rays]),
+        slots = [run.layout.link(each.link) for each in rays]
+        carried = CarriedRays(*joined(rays), run.nworld)
+        cast = RaySystem(
+            carried,
+            spaces,
+            run.state,
+            np.array([slot.body for slot in slots], np.int64),
+            np.array([_wxyz(each.pose) for each in slots]),
+            beside(run),
+            run.sheets,
+            _GROUPS,
         )
-        self._all: CarriedRays | None = None
+        self.system: System | None = cast
+        self.ranges: Floats = cast.ranges
+        self._cast, self._update = cast, update
 
     def cast(self, worlds: Worlds | None = None) -> Floats:
         """Return distances now [m], shape (n, finders, rays); the next call may overwrite them."""
-        place, rays = self._links.placement(worlds), self._rays_in(worlds)
-        at, turned = np.ascontiguousarray(place.position), np.ascontiguousarray(place.quaternion)
-        rays.aim(at, turned, beside(self._run))
-        meet(self._run, rays, worlds, signed=True)
-        return rays.distance.reshape(-1, *self._rays[0].shape[:2])
+        rows = self._cast.rows
+        whole = self.ranges.reshape(-1, rows, self.ranges.shape[1])
+        if worlds is None:
+            self._update(self._cast)
+            return whole
+        for world in worlds.tolist():
+            self._cast.bring(world * rows, (world + 1) * rows, 0)
+        return whole[worlds]
 
-    def _rays_in(self, worlds: Worlds | None) -> CarriedRays:
-        """Return the rays for some worlds; those of all are kept."""
-        if worlds is not None:
-            return CarriedRays(*self._rays, len(worlds))
-        if self._all is None:
-            self._all = CarriedRays(*self._rays, self._run.nworld)
-        return self._all
+
+def _wxyz(pose: Pose) -> tuple[float, ...]:
+    x, y, z, w = pose.quaternion
+    return (*pose.position, w, x, y, z)
+
+
+def joined(rays: Sequence[RangeRays]) -> tuple[Floats, Floats]:
+    """Return origins and directions of the rays, each of shape (finders, rays, 3)."""
+    return np.array([each.origins for each in rays]), np.array([each.directions for each in rays])

@@ -16,6 +16,7 @@ from gazelle.native.acting import AHEAD, BETWEEN, IN_STEP, OF_JOINTS
 from gazelle.native.joint_system import JointSystem
 from gazelle.native.loop import SystemLoop
 from gazelle.native.system import System
+from gazelle.native.worker_pool import WorkerPool
 
 
 class WorldSteps:
@@ -29,6 +30,7 @@ class WorldSteps:
         stepper: Steps it.
         reset: Puts worlds back to their initial state.
         in_step: Returns whether the integrator looks at forces once a step.
+        pool: Threads that share what is updated between two steps.
     """
 
     def __init__(
@@ -37,7 +39,9 @@ class WorldSteps:
         stepper: ForcedSteps,
         reset: Callable[[Worlds], None],
         in_step: Callable[[], bool],
+        pool: WorkerPool,
     ) -> None:
+        self._pool = pool
         self._run, self._stepper, self._reset, self._in_step = run, stepper, reset, in_step
         self._kept: tuple[Sequence[System], int, bool] = (), 0, False
         self._loop, self._within = SystemLoop((), 1, 1), False
@@ -93,7 +97,7 @@ class WorldSteps:
         found.reverse()
         found.sort(key=lambda each: each[0] == OF_JOINTS)
         made = [system for _, system in found], [acts for acts, _ in found]
-        self._loop = SystemLoop(made[0], self._run.nworld, 1, acts=made[1])
+        self._loop = SystemLoop(made[0], self._run.nworld, 1, self._pool, acts=made[1])
         self._within = any(made[1])
 
     def _acts(self, system: System) -> int:

@@ -166,11 +166,7 @@ class PlanarEngine:
     @checked(EngineError, after=True)
     def update(self, system: System, now_ns: int = 0) -> None:
         """Update a system now, whatever its rate, on all threads."""
-        fleet = self._run.fleet
-        rows = fleet.nworld * system.rows
-        fleet.pool.share(
-            lambda first, last, _: system.bring(first, last, now_ns), rows, system.least
-        )
+        self._run.fleet.pool.update(system, self.nworld, now_ns)
 
     def reset(self, worlds: Worlds | None = None) -> None:
         """Reset worlds to their initial state: poses, rest, no commands."""

@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 import mujoco
 from mujoco.introspect import ast_nodes, structs
 
+from gazelle.engines.mujoco.library import address_of_struct
 from gazelle.errors import EngineError
 
 _PLAIN: dict[str, Any] = {
@@ -253,7 +254,7 @@ def _verify(found: Offsets) -> None:
     model = spec.compile()
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
-    here, there = model._address, data._address  # noqa: SLF001  # the only way to an address
+    here, there = address_of_struct(model), address_of_struct(data)
     reported = [
         (there + found.qvel, data.qvel),
         (there + found.passive, data.qfrc_passive),

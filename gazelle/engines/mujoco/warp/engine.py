@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import warnings
+from collections.abc import Sequence
 from typing import Any
 
 import mujoco
@@ -12,7 +13,9 @@ import warp as wp
 from gazelle.description import World
 from gazelle.engines.mujoco.engine import MujocoEngine
 from gazelle.engines.mujoco.warp.batch import WarpBatch
+from gazelle.engines.mujoco.warp.rays import WarpRanges
 from gazelle.engines.mujoco.warp.single_precision import soften
+from gazelle.engines.range_rays import RangeRays, RangeTable
 from gazelle.errors import EngineError, EngineWarning, did_you_mean
 
 _SLEEP, _SPECULATIVE = mujoco.mjtEnableBit.mjENBL_SLEEP, mujoco.mjtEnableBit.mjENBL_SPECULATIVE
@@ -32,6 +35,10 @@ class WarpEngine(MujocoEngine):
     """
 
     _calls_systems = False  # they are not on the device, and act between steps
+
+    def range_table(self, rays: Sequence[RangeRays]) -> RangeTable:
+        """Return a table of range finders of one kind."""
+        return WarpRanges(self.running, self.links, rays)
 
     def on_device(self, kind: str, joint: str) -> Any:
         """Return a joint's positions or velocities in all worlds on the device, without a copy.
