@@ -34,7 +34,7 @@ def clean_ranges(ranges: Floats, *, nearest: float, farthest: float) -> Floats32
 
 
 def clean_all(ranges: Floats, cleaned: Floats32, nearest: float, farthest: float) -> None:
-    """Clean ranges, shape (n, samples)."""
+    """Clean ranges, shape (n, samples); rows of ``cleaned`` may be longer."""
     near: cython.float = nearest
     far: cython.float = farthest
     zero: cython.float = 0.0
@@ -48,19 +48,22 @@ def clean_all(ranges: Floats, cleaned: Floats32, nearest: float, farthest: float
 
 def nearest_obstacle(ranges: Floats32) -> tuple[Floats32, NDArray[np.intp]]:
     """Return the shortest range [m] of each scan and the index of its ray, each of shape (n,)."""
-    shortest, ray = np.empty(len(ranges), np.float32), np.empty(len(ranges), np.intp)
-    find_nearest(np.ascontiguousarray(ranges, np.float32), shortest, ray)
-    return shortest, ray
+    ray = np.empty(len(ranges), np.intp)
+    find_nearest(np.ascontiguousarray(ranges, np.float32), ray)
+    return ranges[np.arange(len(ranges)), ray], ray
 
 
-def find_nearest(ranges: Floats32, shortest: Floats32, ray: NDArray[np.intp]) -> None:
+def find_nearest(ranges: Floats32, ray: NDArray[np.intp]) -> None:
     """Find the first of the shortest ranges of each scan, shape (n, samples)."""
-    samples = ranges.shape[1]
     for i in range(ranges.shape[0]):
-        best, at = ranges[i, 0], 0
-        for j in range(1, samples):
-            closer = ranges[i, j] < best
-            best = ranges[i, j] if closer else best
-            at = j if closer else at
-        shortest[i] = best
-        ray[i] = at
+        ray[i] = nearest_of(ranges, i, ranges.shape[1])
+
+
+def nearest_of(ranges: Floats32, i: int, samples: int) -> int:
+    """Return the index of the first of the shortest ranges, of those with which a row begins."""
+    best, at = ranges[i, 0], 0
+    for j in range(1, samples):
+        closer = ranges[i, j] < best
+        best = ranges[i, j] if closer else best
+        at = j if closer else at
+    return at

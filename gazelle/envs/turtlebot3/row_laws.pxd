@@ -1,7 +1,6 @@
 cpdef void see(
     const double[:, ::1] ranges, double nearest, double farthest, const double[:, :] pose,
-    const double[:, :] goal, float[:, ::1] cleaned, float[::1] shortest, Py_ssize_t[::1] ray,
-    double[:, ::1] found) noexcept
+    const double[:, :] goal, float[:, ::1] state, double[:, ::1] found) noexcept
 cdef double wave_of(double heading, double index) noexcept nogil
 cpdef void find_waves(
     const double[::1] heading, const double[::1] index, double[::1] wave) noexcept

@@ -10,7 +10,7 @@ import cython
 import numpy as np
 from cython.cimports.gazelle.envs.decimals import round_one
 from cython.cimports.gazelle.envs.polar import distance_of, heading_of
-from cython.cimports.gazelle.envs.scans import clean_all, find_nearest
+from cython.cimports.gazelle.envs.scans import clean_all, nearest_of
 from cython.cimports.libc.math import fabs, floor, fmod
 from numpy.typing import NDArray
 
@@ -25,9 +25,7 @@ def see(
     farthest: float,
     pose: Floats,
     goal: Floats,
-    cleaned: Floats32,
-    shortest: Floats32,
-    ray: NDArray[np.intp],
+    state: Floats32,
     found: Floats,
 ) -> None:
     """Find what robots see.
@@ -38,20 +36,23 @@ def see(
         farthest: Caps ranges [m].
         pose: Of the robots: x, y [m] and heading [rad], shape (n, 3).
         goal: In the world frame [m], shape (n, 2).
-        cleaned: For the ranges [m], shape (n, samples).
-        shortest: For the shortest of them [m], shape (n,).
-        ray: For its index, shape (n,).
+        state: For the ranges [m], heading and distance of the goal and, where there is room, the
+            shortest range and its index, shape (n, samples + 2) or (n, samples + 4).
         found: For the shortest range, the same rounded, and the rounded distance [m] and heading
             [rad] of the goal, shape (4, n).
     """
-    clean_all(ranges, cleaned, nearest, farthest)
-    find_nearest(cleaned, shortest, ray)
+    samples = ranges.shape[1]
+    clean_all(ranges, state, nearest, farthest)
     for i in range(ranges.shape[0]):
+        ray = nearest_of(state, i, samples)
         x, y = goal[i, 0] - pose[i, 0], goal[i, 1] - pose[i, 1]
-        found[0, i] = shortest[i]
-        found[1, i] = round_one(shortest[i], 100.0)
+        found[0, i] = state[i, ray]
+        found[1, i] = round_one(found[0, i], 100.0)
         found[2, i] = round_one(distance_of(x, y), 100.0)
         found[3, i] = round_one(heading_of(x, y, pose[i, 2]), 100.0)
+        state[i, samples], state[i, samples + 1] = found[3, i], found[2, i]
+        if state.shape[1] > samples + 2:
+            state[i, samples + 2], state[i, samples + 3] = found[1, i], ray
 
 
 def wave_of(heading: float, index: float) -> float:

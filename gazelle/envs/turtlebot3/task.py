@@ -25,7 +25,7 @@ from gazelle.envs.turtlebot3.actions import (
 )
 from gazelle.envs.turtlebot3.contract import turtlebot3_contract
 from gazelle.envs.turtlebot3.layout import GoalLayout
-from gazelle.envs.turtlebot3.observations import RobotViews, observation, observation_space, sight
+from gazelle.envs.turtlebot3.observations import RobotViews, observation_space, sight
 from gazelle.envs.turtlebot3.rewards import judge
 from gazelle.envs.turtlebot3.rules import NO_GOAL, SHORTEST, STAGES, Rules
 from gazelle.envs.turtlebot3.scene import COMMAND, TaskScene
@@ -183,9 +183,7 @@ class TurtleBot3Task(BatchedTask):
         seen = self._see(worlds)
         self._set_start(worlds, seen.distance)
         no = np.zeros(len(worlds), dtype=np.bool_)
-        return observation(self.rules, seen), self._info(
-            seen, worlds, arrived=no, crashed=no.copy()
-        )
+        return seen.state, self._info(seen, worlds, arrived=no, crashed=no.copy())
 
     def _act(self, actions: ArrayLike) -> TaskOutcome:
         linear, angular = self._command(actions)
@@ -202,7 +200,7 @@ class TurtleBot3Task(BatchedTask):
                 self._next_goals(np.flatnonzero(arrived))
         terminated = crashed if self.respawn else crashed | arrived
         info = self._info(seen, slice(None), arrived=arrived, crashed=crashed > arrived)
-        return TaskOutcome(observation(self.rules, seen), reward, terminated, info)
+        return TaskOutcome(seen.state, reward, terminated, info)
 
     @property
     def _lidar_model(self) -> SensorModel:

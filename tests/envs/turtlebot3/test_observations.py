@@ -5,19 +5,18 @@ import math
 import numpy as np
 import pytest
 
-from gazelle.envs.turtlebot3.observations import observation, observation_space, sight
+from gazelle.envs.turtlebot3.observations import observation_space, sight
 from gazelle.envs.turtlebot3.rules import STAGES
 
 
 def state(stage, ranges):
-    seen = sight(
+    return sight(
         STAGES[stage],
         ranges=np.array([ranges]),
         range_min=0.12,
         pose=np.array([[0.1, 0.2, 0.5]]),
         goal=np.array([[1.0, 1.0]]),
-    )
-    return observation(STAGES[stage], seen)
+    ).state
 
 
 def test_ranges_heading_distance_obstacle():

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 import gazelle.envs  # noqa: F401  registers the environments
 from gazelle.envs.options import NavigationSettings
 from gazelle.envs.turtlebot3.actions import discrete_command
-from gazelle.envs.turtlebot3.observations import observation, sight
+from gazelle.envs.turtlebot3.observations import sight
 from gazelle.envs.turtlebot3.rewards import judge
 from gazelle.envs.turtlebot3.rules import STAGES
 from gazelle.envs.turtlebot3.task import TurtleBot3Task
@@ -38,7 +38,7 @@ def judged(stage, ranges, position, yaw, goal, action, start_distance):
     )
     _, angular = discrete_command([action], 1)
     reward, crashed, arrived = judge(rules, view, angular, np.array([start_distance]))
-    return observation(rules, view)[0], reward[0], crashed[0], arrived[0]
+    return view.state[0], reward[0], crashed[0], arrived[0]
 
 
 @pytest.mark.long
