@@ -103,7 +103,7 @@ class LidarModel:
         check_worlds(worlds, self.engine.nworld)
         noise = self._noise
         if worlds is None and not noise.drifts:
-            return np.ascontiguousarray(self._own().measure_all(interval)[:, 0])
+            return np.ascontiguousarray(self._own().measure_rows())
         table = self._own().table
         ranges = np.ascontiguousarray(table.cast(worlds)[:, 0])
         offset = self.lidar.range_min - table.begin

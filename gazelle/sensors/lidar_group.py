@@ -48,17 +48,21 @@ class LidarGroup:
 
     def measure_all(self, interval: float) -> Floats:  # noqa: ARG002  there are no drifts
         """Measure now on all threads, shape (nworld, n, samples); a new array each time."""
-        if self._system is None:
-            cast = self.table.cast()
-            ranges = np.ascontiguousarray(cast).reshape(-1, cast.shape[2])
-            samples = ranges.shape[1]
-            whole = np.empty((len(ranges), samples + samples % 2))
-            measure(self._law, self._noise, ranges, self._begin - self.table.begin, whole)
-            measured = whole[:, :samples]
-        else:
+        rows = self.measure_rows()
+        return rows.reshape(-1, self._count, rows.shape[1])
+
+    def measure_rows(self) -> Floats:
+        """Measure now on all threads, shape (nworld * n, samples); a new array each time."""
+        if self._system is not None:
             measured = self._system.renew()
             self._engine.update(self._system)
-        return measured.reshape(-1, self._count, measured.shape[1])
+            return measured
+        cast = self.table.cast()
+        ranges = np.ascontiguousarray(cast).reshape(-1, cast.shape[2])
+        samples = ranges.shape[1]
+        whole = np.empty((len(ranges), samples + samples % 2))
+        measure(self._law, self._noise, ranges, self._begin - self.table.begin, whole)
+        return whole[:, :samples]
 
     @property
     def kernel(self) -> System | None:

@@ -33,6 +33,7 @@ cdef class LidarSystem(System):
     cdef double offset
     cdef RangeLaw law
     cdef LidarNoise noise
+    cdef object values, stamps
     cdef long long[::1] stamp
     cpdef renew(self)
     cpdef latest(self)

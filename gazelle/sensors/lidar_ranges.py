@@ -143,18 +143,19 @@ class LidarSystem(System):
         System.__init__(self, rows)
         self.cast, self.ranges, self.offset = cast, ranges, offset
         self.law, self.noise = law, noise
-        self.stamp = np.zeros(len(ranges), np.int64)
+        self.stamps = self.stamp = np.zeros(len(ranges), np.int64)
         self.renew()
 
     def renew(self) -> Floats:
         """Measure into a new array from now on, shape (nworld * rows, samples)."""
         count = self.ranges.shape[1]
-        self.measured = np.empty((self.ranges.shape[0], count + count % 2))
-        return np.asarray(self.measured)[:, :count]
+        whole = np.empty((self.ranges.shape[0], count + count % 2))
+        self.measured, self.values = whole, whole[:, :count] if count % 2 else whole
+        return self.values
 
     def latest(self) -> tuple[Floats, NDArray[np.int64]]:
         """Return the last measurements [m], (nworld * rows, samples), and their times [ns]."""
-        return np.asarray(self.measured)[:, : self.ranges.shape[1]], np.asarray(self.stamp)
+        return self.values, self.stamps
 
     def update(self, first: int, last: int, time: int) -> None:
         """Measure with the lidars first to last."""

@@ -50,6 +50,9 @@ class NoiseModel:
         self._bias = np.zeros((nworld, channels))
         self._drift = np.zeros((nworld, channels))
         self._active = noise.type != "none"
+        self._changes = (
+            noise.dynamic_bias_stddev > 0.0 and noise.dynamic_bias_correlation_time > 0.0
+        )
         self._stddev = np.full((nworld, 1), noise.stddev if self._active else 0.0)
         self._spread = bool(self._stddev.any())
         self._biased = self._active and (noise.bias_mean != 0.0 or noise.bias_stddev != 0.0)
@@ -127,9 +130,7 @@ class NoiseModel:
     @property
     def drifts(self) -> bool:
         """True if it has a bias that changes with time."""
-        noise = self._noise
-        changes = noise.dynamic_bias_stddev > 0.0 and noise.dynamic_bias_correlation_time > 0.0
-        return self._active and changes
+        return self._active and self._changes
 
     @property
     def biased(self) -> bool:

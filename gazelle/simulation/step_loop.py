@@ -270,7 +270,8 @@ class StepLoop:
         if self._plan.late:
             self.in_step.settle()
         for schedule, system in zip(self._schedules, self._systems, strict=True):
-            schedule.follow(system.due)
+            if system.due != schedule.due_ns:
+                schedule.follow(system.due)
         for group in self._plan.groups:
             group.follow()
 
