@@ -238,7 +238,7 @@ class ScanAssembler(CloudAssembler):
         channels["index"] = kept.astype(np.float64)
         if not self._still:
             channels["distances"] = np.asarray(found.ranges[kept], np.float64)
-            channels["stamps"] = kept * found.time_increment
+            channels["stamps"] = kept.astype(np.float64) * found.time_increment
         return CloudPart(found.stamp, points[kept], channels)
 
 
