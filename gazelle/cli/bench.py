@@ -1,5 +1,9 @@
-"""Run the benchmarks of a source checkout, each printing its figure and the peer's
-from the same run. Without a name, list them.
+"""Run a benchmark of a source checkout. It prints its result, and where there is
+one the result of a comparable project measured in the same run.
+
+  gazelle bench
+  gazelle bench physics
+  gazelle bench recipes --verify --cheap
 """  # noqa: D205  # this is the text of --help
 
 from __future__ import annotations
@@ -17,9 +21,11 @@ from gazelle.errors import Error, ResolveError, did_you_mean
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("name", nargs="?", metavar="NAME", help="which; by default list them")
     parser.add_argument(
-        "arguments", nargs=argparse.REMAINDER, metavar="...", help="passed on to it"
+        "name", nargs="?", metavar="NAME", help="benchmark to run (default: list all)"
+    )
+    parser.add_argument(
+        "arguments", nargs=argparse.REMAINDER, metavar="...", help="arguments of the benchmark"
     )
 
 

@@ -1,5 +1,5 @@
-"""Load files and check them: every problem with its file and line, and what to do.
-A file that can be read is also built with the engine and its plugins.
+"""Check files: report each problem with its file, line and a suggested fix.
+Files that can be read are also loaded into the engine, with their plugins.
 
   gazelle check my.world my_robot.urdf.xacro
   gazelle check --urdf my_robot.urdf my_robot.srdf my_controllers.yaml
@@ -34,13 +34,17 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "files",
         nargs="+",
         metavar="FILE",
-        help="a file, a model's folder, or a bundled name; arg:=value for launch files",
+        help="file, model folder or bundled name; arg:=value for launch files",
     )
-    parser.add_argument("--json", action="store_true", help="for tools: one JSON list")
-    parser.add_argument("--urdf", metavar="FILE", help="the robot of an SRDF, or of controllers")
-    parser.add_argument("--engine", metavar="NAME", default="mujoco", help="default mujoco")
+    parser.add_argument("--json", action="store_true", help="print the findings as a JSON list")
     parser.add_argument(
-        "--files-only", action="store_true", help="do not build them with the engine"
+        "--urdf", metavar="FILE", help="robot that an SRDF or controller file belongs to"
+    )
+    parser.add_argument(
+        "--engine", metavar="NAME", default="mujoco", help="physics engine (default mujoco)"
+    )
+    parser.add_argument(
+        "--files-only", action="store_true", help="do not load the files into the engine"
     )
 
 

@@ -11,18 +11,24 @@ _BEFORE = (
     ),
     Command("run", "simulate a file", "simulate", "gazelle.cli.run"),
     Command(
-        "check", "check files: every problem, with file and line", "simulate", "gazelle.cli.check"
+        "check",
+        "check files and report problems with file and line",
+        "simulate",
+        "gazelle.cli.check",
+    ),
+    Command("convert", "convert a file to another format", "simulate", "gazelle.cli.convert"),
+    Command("map", "write a map_server map of a world", "simulate", "gazelle.cli.map"),
+    Command(
+        "view", "show a file or a running ROS graph in a browser", "visualize", "gazelle.cli.view"
     ),
     Command(
-        "convert", "convert files from one format to another", "simulate", "gazelle.cli.convert"
+        "picture",
+        "render an image of a world, recording, bag or policy",
+        "visualize",
+        "gazelle.cli.picture",
     ),
-    Command("map", "write the true map of a world, for map_server", "simulate", "gazelle.cli.map"),
-    Command(
-        "view", "show a file, or a running ROS graph, live in a browser", "look", "gazelle.cli.view"
-    ),
-    Command("picture", "draw a world, a recording, a bag, a policy", "look", "gazelle.cli.picture"),
-    Command("plot", "plot curves of runs, tables and bags", "look", "gazelle.cli.plot"),
-    Command("film", "record a film, as GIF or MP4", "look", "gazelle.cli.film"),
+    Command("plot", "plot curves of runs, tables and bags", "visualize", "gazelle.cli.plot"),
+    Command("film", "record a video as GIF or MP4", "visualize", "gazelle.cli.film"),
     Command("train", "train a policy for a task, or resume a run", "learn", "gazelle.cli.train"),
     Command(
         "eval",
@@ -35,7 +41,7 @@ _BEFORE = (
     ),
     Command(
         "study",
-        "run a function over parameters and seeds, into one table",
+        "run a function over parameters and seeds into a table",
         "learn",
         "gazelle.cli.study",
     ),
@@ -60,13 +66,13 @@ _AFTER = (
     Command("plugins", "list the supported plugins", "list and examine", "gazelle.cli.plugins"),
     Command(
         "controllers",
-        "list the types of controllers",
+        "list the supported controller types",
         "list and examine",
         "gazelle.cli.controllers",
     ),
     Command(
         "doctor",
-        "examine this machine for missing parts",
+        "diagnose this installation",
         "list and examine",
         "gazelle.cli.doctor",
     ),

@@ -1,10 +1,10 @@
-"""Print the completion of bash or zsh for Gazelle's commands.
+"""Print a script for tab completion of gazelle in bash or zsh.
 
   echo 'eval "$(gazelle completion bash)"' >> ~/.bashrc
   echo 'eval "$(gazelle completion zsh)"' >> ~/.zshrc
 
-Commands, sub-commands and options are completed, the names of topics,
-services, nodes and parameters of the running graph, and files.
+It completes commands, sub-commands, options and files, and the names of topics,
+services, nodes and parameters of the running graph.
 """  # this is the text of --help
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--tools",
         action="store_true",
-        help="for rostopic, roslaunch ... too, as in 'gazelle shell'",
+        help="also complete rostopic, roslaunch and the other commands of 'gazelle shell'",
     )
 
 

@@ -1,4 +1,4 @@
-"""List the types of controllers that configurations can name, and what they do."""
+"""List the supported types of ros_control controllers."""
 
 from __future__ import annotations
 

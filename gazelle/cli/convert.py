@@ -1,6 +1,6 @@
-"""Convert between formats. Readable is all that 'gazelle run' takes: SDF, URDF,
-xacro, bundled names. Writable are SDF, URDF and MJCF. What the new format
-cannot express is an error, or a warning that names it. Meshes are not copied.
+"""Convert a file to SDF, URDF or MJCF. The input is any file that 'gazelle run'
+takes, such as SDF, URDF, xacro or a bundled name. Elements that the output
+format cannot express give a warning or an error. Meshes are not copied.
 
   gazelle convert robot.urdf.xacro robot.sdf
   gazelle convert office.world robot.urdf --model robot
@@ -35,10 +35,10 @@ _READ_ONLY = {".xacro": "xacro", ".inc": "Stage"}
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("source", metavar="IN", help="a file, a model's folder, or a bundled name")
-    parser.add_argument("target", metavar="OUT", help="the file to write; - for the terminal")
+    parser.add_argument("source", metavar="IN", help="input file, model folder or bundled name")
+    parser.add_argument("target", metavar="OUT", help="output file; - for standard output")
     parser.add_argument(
-        "--to", choices=_FORMATS, help="the format to write; by default what OUT's suffix says"
+        "--to", choices=_FORMATS, help="output format (default: by the suffix of OUT)"
     )
     parser.add_argument("--model", metavar="NAME", help="write only this model of the world")
     parser.add_argument(
@@ -46,7 +46,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="DIR",
         action="append",
         default=[],
-        help="a folder to search for models and packages (repeatable)",
+        help="folder to search for models and packages (repeatable)",
     )
     parser.add_argument(
         "--arg",
@@ -54,7 +54,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         action="append",
         type=_argument,
         default=[],
-        help="an argument of a xacro file (repeatable)",
+        help="argument of a xacro file (repeatable)",
     )
 
 
@@ -102,7 +102,7 @@ def _format_of(target: str) -> Format:
 
 
 def _chosen(world: World, name: str | None, target: str) -> World | Model:
-    """Return the requested model; else the one model of a file that is no world.
+    """Return the requested model; else the one model of a file that is not a world.
 
     Else the world.
     """

@@ -1,7 +1,7 @@
 """Run the main workflow: load, train and evaluate a TurtleBot3 burger.
 
-The burger and its first world are loaded from their files, a policy is trained
-on many copies at once, and it is evaluated on 100 fresh goals.
+It loads the robot and a world from their files, trains a policy in parallel
+environments, and evaluates it on 100 new goals.
 
   gazelle demo
   gazelle demo --world my.world --robot my_burger.urdf.xacro
@@ -34,14 +34,26 @@ _ROBOT = "turtlebot3_burger"
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("--steps", metavar="N", type=positive_int, help="control steps")
-    parser.add_argument("--num-envs", metavar="N", type=positive_int, help="copies at once")
-    parser.add_argument("--seed", metavar="N", type=int, default=0, help="seed (default 0)")
     parser.add_argument(
-        "--episodes", metavar="N", type=positive_int, default=100, help="goals (default 100)"
+        "--steps", metavar="N", type=positive_int, help="total number of environment steps"
     )
     parser.add_argument(
-        "--out", metavar="DIR", type=Path, default=Path("runs"), help="folder of the run"
+        "--num-envs", metavar="N", type=positive_int, help="number of parallel environments"
+    )
+    parser.add_argument("--seed", metavar="N", type=int, default=0, help="random seed (default 0)")
+    parser.add_argument(
+        "--episodes",
+        metavar="N",
+        type=positive_int,
+        default=100,
+        help="number of evaluation episodes (default 100)",
+    )
+    parser.add_argument(
+        "--out",
+        metavar="DIR",
+        type=Path,
+        default=Path("runs"),
+        help="parent folder of the run (default runs)",
     )
     add_view(parser, COPIES)
     add_file_options(parser)

@@ -1,19 +1,19 @@
-"""Drive a robot by a policy on a ROS 1 graph: Gazelle's, a real Gazebo's, a real
-TurtleBot3. Needs no torch.
+"""Drive a robot on a ROS 1 graph with a trained policy: in Gazelle, in Gazebo, or
+a real TurtleBot3. Needs no torch.
 
   gazelle run turtlebot3_stage_1 --ros --spawn turtlebot3_burger
   gazelle deploy runs/TurtleBot3Stage1-ppo-20261105-140302 --arm --goal 1,0.5
   gazelle deploy policy.npz --max-linear 0.1 --log drive.jsonl odom:=/tb3/odom
 
-It subscribes to scan, odom and move_base_simple/goal, and publishes cmd_vel;
-all names can be remapped. It stands still until the service
+The node subscribes to scan, odom and move_base_simple/goal, and publishes
+cmd_vel; all names can be remapped. The robot stands still until the service
 /gazelle_policy/arm is called:
 
   gazelle service call /gazelle_policy/arm "data: true"
 
-However it ends, by kill -9 too, the robot is sent zero: a guard, a process of
-its own, holds cmd_vel. With goals given it ends when they are done, and the
-exit code is 1 if one was not reached.
+A separate guard process publishes zero velocity when the node ends, even by
+kill -9. With --goal or --goals the command exits when all goals are done, with
+exit code 1 if one was not reached.
 """  # noqa: D205  # this is the text of --help
 
 from __future__ import annotations
@@ -35,43 +35,83 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     if isinstance(parser, Parser):
         parser.intermixed = True
-    parser.add_argument("policy", metavar="RUN|FILE", type=Path, help="run, .npz or .onnx")
     parser.add_argument(
-        "names", metavar="OLD:=NEW", nargs="*", help="ROS names, such as scan:=/lidar"
+        "policy", metavar="RUN|FILE", type=Path, help="run folder, .npz or .onnx file"
     )
-    goals = parser.add_argument_group("where to")
+    parser.add_argument(
+        "names",
+        metavar="OLD:=NEW",
+        nargs="*",
+        help="remapping of a ROS name, such as scan:=/lidar (repeatable)",
+    )
+    goals = parser.add_argument_group("goals")
     goals.add_argument(
-        "--goal", metavar="X,Y", action="append", default=[], help="go there [m] (repeatable)"
+        "--goal",
+        metavar="X,Y",
+        action="append",
+        default=[],
+        help="position to drive to [m] (repeatable)",
     )
-    goals.add_argument("--goals", metavar="FILE", type=Path, help="one x, y a line [m]")
     goals.add_argument(
-        "--time-limit", metavar="S", type=positive_float, help="for each goal (default the task's)"
+        "--goals", metavar="FILE", type=Path, help="file of goals, one x, y per line [m]"
     )
-    safety = parser.add_argument_group("limits")
-    safety.add_argument("--arm", action="store_true", help="arm as soon as all sensors have data")
-    safety.add_argument("--max-linear", metavar="M/S", type=positive_float, default=math.inf)
-    safety.add_argument("--max-angular", metavar="RAD/S", type=positive_float, default=math.inf)
+    goals.add_argument(
+        "--time-limit",
+        metavar="S",
+        type=positive_float,
+        help="time limit for each goal (default: that of the task)",
+    )
+    safety = parser.add_argument_group("safety")
+    safety.add_argument(
+        "--arm",
+        action="store_true",
+        help="arm without the service call, once all sensors have data",
+    )
+    safety.add_argument(
+        "--max-linear",
+        metavar="M/S",
+        type=positive_float,
+        default=math.inf,
+        help="speed limit (default: none)",
+    )
+    safety.add_argument(
+        "--max-angular",
+        metavar="RAD/S",
+        type=positive_float,
+        default=math.inf,
+        help="turn rate limit (default: none)",
+    )
     safety.add_argument(
         "--stop-distance",
         metavar="M",
         type=float,
-        help="only turn with something nearer than this ahead; 0: never (default the range that "
-        "was a collision and 0.03)",
+        help="only turn while an obstacle ahead is nearer than this; 0 disables it (default: the "
+        "collision range of the task plus 0.03)",
     )
     safety.add_argument(
-        "--scan-timeout", metavar="S", type=positive_float, default=0.4, help="default 0.4"
+        "--scan-timeout",
+        metavar="S",
+        type=positive_float,
+        default=0.4,
+        help="stop if the last scan is older (default 0.4)",
     )
     safety.add_argument(
-        "--odom-timeout", metavar="S", type=positive_float, default=0.4, help="default 0.4"
+        "--odom-timeout",
+        metavar="S",
+        type=positive_float,
+        default=0.4,
+        help="stop if the last odometry is older (default 0.4)",
     )
     parser.add_argument(
         "--scan-yaw",
         metavar="RAD",
         type=float,
         default=0.0,
-        help="yaw of the lidar on the robot, to the left [rad]",
+        help="yaw of the lidar relative to the robot, counter-clockwise [rad]",
     )
-    parser.add_argument("--log", metavar="FILE", type=Path, help="log of interventions (JSON)")
+    parser.add_argument(
+        "--log", metavar="FILE", type=Path, help="write a log of interventions (JSON lines)"
+    )
     add_import_option(parser)
     parser.set_defaults(parser=parser)
 

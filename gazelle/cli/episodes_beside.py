@@ -82,7 +82,7 @@ def _brief(record: EpisodeRecord) -> str:
 
 
 class _EpisodePace:
-    """Real time, which stands while nobody looks at the page; ended by the choice of an episode."""
+    """Real time, which stands while no page is open; ended by the choice of an episode."""
 
     def __init__(self, page: Any, period: float) -> None:
         self._page, self._period = page, period

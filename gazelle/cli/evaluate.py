@@ -3,12 +3,12 @@
   gazelle eval runs/TurtleBot3Stage1-ppo-20261105-140302 --episodes 1000
   gazelle eval RUN --failures failures.csv --failures failures.png
   gazelle eval RUN --goals published --starts published
-  gazelle eval RUN --view            # then see its episodes, failures first
+  gazelle eval RUN --view            # then replay its episodes, failures first
 
 Navigation tasks are evaluated on starts, goals and positions of obstacles that
-no policy was trained on, unless you ask for others. Every copy of the world
-runs a number of episodes fixed in advance, so short episodes are not favoured.
-Intervals are at 95 %; episodes that repeat others make them wider.
+no policy was trained on, unless you ask for others. Each environment runs
+a number of episodes fixed in advance, so short episodes are not favoured.
+Confidence intervals are at 95 %; repeated episodes widen them.
 """
 
 from __future__ import annotations
@@ -35,12 +35,18 @@ from gazelle_ros.cli.parsing import (
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("run", metavar="RUN", type=Path, help="folder of a run, or a policy.npz")
-    parser.add_argument("--task", metavar="TASK", help="another task than the run's")
+    parser.add_argument("run", metavar="RUN", type=Path, help="run folder, or a policy.npz")
+    parser.add_argument("--task", metavar="TASK", help="evaluate on another task")
     parser.add_argument(
-        "--episodes", metavar="N", type=positive_int, default=100, help="how many (default 100)"
+        "--episodes",
+        metavar="N",
+        type=positive_int,
+        default=100,
+        help="number of episodes (default 100)",
     )
-    parser.add_argument("--num-envs", metavar="N", type=positive_int, help="copies at once")
+    parser.add_argument(
+        "--num-envs", metavar="N", type=positive_int, help="number of parallel environments"
+    )
     parser.add_argument(
         "--seed", metavar="N", type=int, default=10_000, help="seed of the goals (default 10000)"
     )
@@ -50,10 +56,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
         type=failures_file,
         action="append",
         default=[],
-        help="save the episodes that failed: .json, .csv, or a picture .png (repeatable)",
+        help="save the failed episodes to a .json or .csv file, or a .png picture (repeatable)",
     )
     parser.add_argument(
-        "--best", action="store_true", help="the best policy of the run, not the newest"
+        "--best", action="store_true", help="use the best policy of the run instead of the latest"
     )
     add_view(
         parser,
@@ -61,7 +67,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "first; its address is printed",
     )
     parser.add_argument("--json", action="store_true", help="print JSON instead of text")
-    add_worker_options(parser, "processes that play the episodes")
+    add_worker_options(parser, "number of processes that run the episodes")
     add_import_option(parser)
     add_file_options(parser)
     add_scenario_options(parser)
@@ -73,7 +79,7 @@ def run(args: argparse.Namespace) -> int:
     """Run the command; returns the exit code."""
     if args.view is not None:
         if args.json or args.workers is not None or args.ray is not None:
-            args.parser.error("a view plays episodes here; leave out --json, --workers and --ray")
+            args.parser.error("--view cannot be used with --json, --workers or --ray")
         from gazelle.viewer.page.server import required_viser
 
         required_viser()

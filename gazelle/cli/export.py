@@ -1,16 +1,16 @@
-"""Write the policy of a run for use elsewhere, or the whole run as one file.
+"""Export the policy of a run, or the whole run as one file.
 
-A JSON file beside a policy describes its observations and actions: layout,
-units, rates, limits, frames.
+A JSON file next to the policy describes its observations and actions: layout,
+units, rates, limits and frames.
 
   gazelle export runs/TurtleBot3Stage1-ppo-20261105-140302
   gazelle export RUN --format numpy --out robot/policy.npz
   gazelle export RUN --format run --out run.zip
 
-onnx:  for ONNX Runtime, TensorRT ...; takes 'observation', gives 'action'.
-numpy: arrays alone; gazelle.training.load_actor(FILE).act(observations) acts
-       without torch.
-run:   configuration, curves, policies and the newest checkpoint; elsewhere
+onnx:  for ONNX Runtime or TensorRT; input 'observation', output 'action'.
+numpy: arrays only; gazelle.training.load_actor(FILE).act(observations) needs
+       no torch.
+run:   configuration, curves, policies and the latest checkpoint;
        'gazelle runs --import FILE' unpacks it.
 """  # this is the text of --help
 
@@ -27,19 +27,19 @@ from gazelle_ros.cli.parsing import add_import_option
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("run", metavar="RUN", type=Path, help="folder of a run")
+    parser.add_argument("run", metavar="RUN", type=Path, help="run folder")
     parser.add_argument(
-        "--format", metavar="NAME", default="onnx", help="onnx (default), numpy or run"
+        "--format", metavar="NAME", default="onnx", help="format: onnx (default), numpy or run"
     )
     parser.set_defaults(parser=parser)
     parser.add_argument(
-        "--best", action="store_true", help="the best policy of the run, not the newest"
+        "--best", action="store_true", help="use the best policy of the run instead of the latest"
     )
     parser.add_argument(
         "--out",
         metavar="PATH",
         type=Path,
-        help="file or folder (default RUN/export; of a run RUN.zip)",
+        help="output file or folder (default RUN/export; RUN.zip for run)",
     )
     add_import_option(parser)
 

@@ -34,15 +34,21 @@ def configure(parser: argparse.ArgumentParser) -> None:
         dest="seconds",
         metavar="SECONDS",
         type=positive_float,
-        help=f"simulated time (default {_SECONDS:g}; recordings and bags to their end)",
+        help=f"simulated time to record (default {_SECONDS:g}; recordings and bags: to the end)",
     )
-    parser.add_argument("--fps", metavar="N", type=positive_float, default=25.0, help="default 25")
+    parser.add_argument(
+        "--fps",
+        metavar="N",
+        type=positive_float,
+        default=25.0,
+        help="frames per second (default 25)",
+    )
     parser.add_argument(
         "--speed",
         metavar="X",
         type=positive_float,
         default=1.0,
-        help="simulated seconds a second of film (default 1)",
+        help="simulated seconds per second of video (default 1)",
     )
 
 

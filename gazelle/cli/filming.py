@@ -53,19 +53,22 @@ def add_source(parser: argparse.ArgumentParser) -> None:
         help="a world or robot file or its bundled name, a recording (.jsonl), a bag, or the "
         "folder of a training run",
     )
-    parser.add_argument("out", metavar="OUT", type=Path, help="the file to write")
-    parser.add_argument("--seed", metavar="N", type=int, help="of what runs")
-    look = parser.add_argument_group("from where (of worlds and recordings)")
-    look.add_argument("--eye", metavar="X,Y,Z", type=_triple, help="position of the camera [m]")
-    look.add_argument(
-        "--target", metavar="X,Y,Z", type=_triple, help="point in the centre of the image [m]"
+    parser.add_argument("out", metavar="OUT", type=Path, help="output file")
+    parser.add_argument(
+        "--seed", metavar="N", type=int, help="random seed (worlds and training runs)"
     )
-    look.add_argument("--follow", metavar="MODEL", default="", help="follow a model")
+    look = parser.add_argument_group("camera and scene (worlds and recordings)")
+    look.add_argument("--eye", metavar="X,Y,Z", type=_triple, help="camera position [m]")
     look.add_argument(
-        "--top", action="store_true", help="a world in the plane, or a bag, from above"
+        "--target", metavar="X,Y,Z", type=_triple, help="point that the camera looks at [m]"
     )
+    look.add_argument("--follow", metavar="MODEL", default="", help="follow this model")
+    look.add_argument("--top", action="store_true", help="top view of a planar world or a bag")
     look.add_argument(
-        "--size", metavar="WxH", type=_size, help=f"pixels (default {_SIZE[0]}x{_SIZE[1]})"
+        "--size",
+        metavar="WxH",
+        type=_size,
+        help=f"image size in pixels (default {_SIZE[0]}x{_SIZE[1]})",
     )
     add_ground(look)
     look.add_argument(
@@ -74,7 +77,7 @@ def add_source(parser: argparse.ArgumentParser) -> None:
         type=parse_spawn,
         action="append",
         default=[],
-        help="also put a robot there (repeatable)",
+        help="also spawn a robot (repeatable)",
     )
     look.add_argument(
         "--drive",

@@ -159,7 +159,7 @@ def ros_variables() -> Iterator[Finding]:
             yield Finding(
                 Grade.PROBLEM,
                 "ROS",
-                f"ROS_PACKAGE_PATH names {folder}, which is no folder",
+                f"ROS_PACKAGE_PATH names {folder}, which is not a folder",
                 "export ROS_PACKAGE_PATH=/path/to/catkin_ws/src",
             )
 

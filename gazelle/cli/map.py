@@ -13,26 +13,35 @@ import sys
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("source", metavar="WORLD", help="a file that 'gazelle run' takes")
-    parser.add_argument("target", metavar="OUT", help="path of the map, with or without .yaml")
-    parser.add_argument("--height", type=float, default=0.2, help="of the cut [m] (0.2)")
-    parser.add_argument("--resolution", type=float, default=0.05, help="of a cell [m] (0.05)")
     parser.add_argument(
-        "--margin", type=float, default=1.0, help="free ground around the models [m] (1)"
+        "source", metavar="WORLD", help="world file or bundled name, as for 'gazelle run'"
+    )
+    parser.add_argument("target", metavar="OUT", help="path of the map, with or without .yaml")
+    parser.add_argument(
+        "--height",
+        type=float,
+        default=0.2,
+        help="height of the horizontal section [m] (default 0.2)",
+    )
+    parser.add_argument(
+        "--resolution", type=float, default=0.05, help="cell size [m] (default 0.05)"
+    )
+    parser.add_argument(
+        "--margin", type=float, default=1.0, help="free space around the models [m] (default 1)"
     )
     parser.add_argument(
         "--area",
         type=float,
         nargs=4,
         metavar=("X0", "Y0", "X1", "Y1"),
-        help="corners of the map [m]; by default as far as things stand",
+        help="corners of the map [m] (default: bounds of the models)",
     )
     parser.add_argument(
         "--path",
         metavar="DIR",
         action="append",
         default=[],
-        help="a folder to search for models and packages (repeatable)",
+        help="folder to search for models and packages (repeatable)",
     )
 
 

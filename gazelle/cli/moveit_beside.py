@@ -134,7 +134,7 @@ def _start(robot: Robot, file: Path, *, verbose: bool) -> None:
     except OSError as error:
         raise ResolveError(f"cannot read {file}: {error.strerror}") from error
     except yaml.YAMLError as error:
-        raise ControlError(f"{file} is no YAML: {error}") from error
+        raise ControlError(f"{file} is not valid YAML: {error}") from error
     if not isinstance(given, Mapping):
         raise ControlError(f"{file} has no controllers", hint="names, each with type and joints")
     configured = {
@@ -158,5 +158,7 @@ def _start(robot: Robot, file: Path, *, verbose: bool) -> None:
 def _description(robot: Robot) -> str:
     text = urdf_of(robot)
     if text is None:
-        raise ResolveError(f"MoveIt plans for robots of URDF files, and '{robot.name}' is of none")
+        raise ResolveError(
+            f"--moveit needs a robot from a URDF file, and '{robot.name}' is from another format"
+        )
     return text

@@ -1,13 +1,11 @@
-"""Write a template into this folder: a task with a robot and a test.
-
-Its cart learns to balance a pole in a minute.
+"""Write template files into this folder.
 
   gazelle new task Balance
-
-Or the files that ros_control needs: a robot's URDF with transmissions,
-controllers and a launch file.
-
   gazelle new control my_arm.urdf
+
+task:    a task with a robot and a test; its cart-pole trains in a minute.
+control: files for ros_control: the robot's URDF with transmissions, a
+         controller configuration and a launch file.
 """  # this is the text of --help
 
 from __future__ import annotations
@@ -30,21 +28,21 @@ _FILES = {"task.py": "{}.py", "robot.urdf": "{}.urdf", "test.py": "test_{}.py"}
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument(
-        "kind", choices=["task", "control"], metavar="task|control", help="template to write"
+        "kind", choices=["task", "control"], metavar="task|control", help="kind of template"
     )
     parser.add_argument(
-        "name", metavar="NAME", help="name of the task, or the robot's URDF or xacro"
+        "name", metavar="NAME", help="name of the task, or the robot's URDF or xacro file"
     )
     parser.add_argument(
-        "--out", metavar="DIR", type=Path, default=Path(), help="folder (default: this one)"
+        "--out", metavar="DIR", type=Path, default=Path(), help="output folder (default: this one)"
     )
     parser.add_argument(
         "--interface", choices=["effort", "position", "velocity"], default="effort",
-        help="how controllers command joints (default effort)",
+        help="hardware interface of the joints (default effort)",
     )  # fmt: skip
     parser.add_argument(
         "--controller", choices=["trajectory", "group", "joint"], default="trajectory",
-        help="for trajectories, for all joints, or one for each",
+        help="one trajectory controller, one group controller, or one controller per joint (default trajectory)",
     )  # fmt: skip
 
 
@@ -95,7 +93,7 @@ def write_task(name: str, folder: Path) -> list[Path]:
     """
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9]*", name):
         hint = "letters and digits, such as Balance"
-        raise TaskError(f"'{name}' cannot be the name of a task", hint=hint)
+        raise TaskError(f"'{name}' is not a valid name of a task", hint=hint)
     stem = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).lower()
     sources = {folder / pattern.format(stem): source for source, pattern in _FILES.items()}
     for file in sources:

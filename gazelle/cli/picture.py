@@ -22,7 +22,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     add_source(parser)
     parser.add_argument(
-        "--at", metavar="SECONDS", type=positive_float, help="simulated time (default 0)"
+        "--at",
+        metavar="SECONDS",
+        type=positive_float,
+        help="simulated time of the image (default 0)",
     )
 
 
@@ -35,7 +38,7 @@ def run(args: argparse.Namespace) -> int:
         if args.at is not None:
             for part in ProgressLine("simulating", 100, "%").count(range(1, 101)):
                 source.advance(args.at * part / 100)
-        picture = source.look()
+        picture = source.render()
     write_picture(file, picture)
     sys.stdout.write(f"{file}: {picture.shape[1]} x {picture.shape[0]}\n")
     return 0

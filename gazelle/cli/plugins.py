@@ -1,4 +1,4 @@
-"""List the plugins that files can name, and what they do."""
+"""List the supported Gazebo plugins, by the names of their libraries."""
 
 from __future__ import annotations
 

@@ -1,4 +1,8 @@
-"""List the robots that come with Gazelle: what each is, or its file."""
+"""List the bundled robots.
+
+gazelle robots
+gazelle robots --long
+"""  # this is the text of --help
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Simulate a file without a window.
+"""Simulate a world or robot file, without a window.
 
 The file is an SDF or .world, a URDF or xacro, a Stage .world, a map_server map,
 a model's folder, or a bundled name (see 'gazelle worlds').
@@ -11,10 +11,10 @@ a model's folder, or a bundled name (see 'gazelle worlds').
   gazelle run pick_and_place --spawn fetch --ros --moveit
   gazelle run map.yaml --engine planar --spawn turtlebot3_burger --ros
 
-A robot or model by itself opens in a world with ground and sun.
-With --ros it is a ROS 1 node: /clock, topics and /gazebo/... services, as
-Gazebo has them. A master is started where ROS_MASTER_URI names none that
-answers.
+A robot or model file is loaded into a world with ground and sun.
+With --ros the simulation is a ROS 1 node with the topics and services of
+gazebo_ros, such as /clock and /gazebo/spawn_urdf_model. It starts a master if
+none answers at ROS_MASTER_URI.
 """  # this is the text of --help
 
 from __future__ import annotations
@@ -49,33 +49,37 @@ _MANY = 20  # models beyond which their names are not listed, and that nobody dr
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("file", metavar="FILE", help="a file, or the name of a bundled world")
     parser.add_argument(
-        "--engine", metavar="NAME", help="mujoco or planar (default mujoco, for Stage files planar)"
+        "file", metavar="FILE", help="file to simulate, or the name of a bundled world"
+    )
+    parser.add_argument(
+        "--engine",
+        metavar="NAME",
+        help="physics engine: mujoco or planar (default mujoco; planar for Stage files)",
     )
     parser.add_argument(
         "--for",
         dest="seconds",
         metavar="SECONDS",
         type=positive_float,
-        help="simulated time; by default until Ctrl-C",
+        help="simulated time to run (default: until Ctrl-C)",
     )
     parser.add_argument(
         "--rate",
         metavar="X",
         type=_rate,
-        help="real-time factor to keep to, or max (default 1.0, for Stage files their speedup)",
+        help="real-time factor, or max (default 1.0; for Stage files their speedup)",
     )
-    parser.add_argument("--paused", action="store_true", help="load, but do not start the clock")
-    parser.add_argument("--seed", metavar="N", type=int, default=0, help="default 0")
+    parser.add_argument("--paused", action="store_true", help="start paused")
+    parser.add_argument("--seed", metavar="N", type=int, default=0, help="random seed (default 0)")
     parser.add_argument(
         "--wander",
         action="store_true",
-        help="let the robots of a Stage file wander",
+        help="run Stage's wander controller on the robots of a Stage file",
     )
     add_ground(parser)
     add_view(parser)
-    parser.add_argument("--ros", action="store_true", help="be a node on a ROS 1 graph")
+    parser.add_argument("--ros", action="store_true", help="connect to a ROS 1 graph")
     add_moveit(parser)
     add_rosbridge(parser)
     parser.add_argument(
@@ -84,22 +88,22 @@ def configure(parser: argparse.ArgumentParser) -> None:
         type=parse_spawn,
         action="append",
         default=[],
-        help="also put a robot there: a file or a bundled name, and where [m, rad] (by default at "
-        "the origin, or beside what stands there); may be given several times",
+        help="also spawn a robot: a file or a bundled name, at x, y [m] and yaw [rad] (default: the "
+        "origin, or next to what is there; repeatable)",
     )
     parser.add_argument(
         "--plugins",
         metavar="DIR",
         action="append",
         default=[],
-        help="folder with your own plugins, Python modules that the file names",
+        help="folder with Python modules of plugins that the file names (repeatable)",
     )
     parser.add_argument(
         "--system",
         metavar="MODULE:CLASS",
         action="append",
         default=[],
-        help="also run a system plugin, one that no file names; may be given several times",
+        help="also load a system plugin (repeatable)",
     )
     parser.add_argument(
         "--verbose", action="store_true", help="report why controllers are not started"
@@ -110,13 +114,13 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Run the command; returns the exit code."""
     if args.paused and args.seconds is not None:
-        args.parser.error("a paused simulation never gets there; leave out --for or --paused")
+        args.parser.error("--for and --paused cannot be used together")
     if args.moveit and not args.ros:
-        args.parser.error("--moveit is for a ROS graph; add --ros")
+        args.parser.error("--moveit requires --ros")
     if args.rosbridge is not None and not args.ros:
-        args.parser.error("--rosbridge is for a ROS graph; add --ros")
+        args.parser.error("--rosbridge requires --ros")
     if args.wander and args.ros:
-        args.parser.error("on a ROS graph robots drive by cmd_vel; leave out --wander or --ros")
+        args.parser.error("--wander and --ros cannot be used together")
     from gazelle import formats
     from gazelle.stage import stage_world
 

@@ -4,8 +4,8 @@
   gazelle runs runs other/runs
   gazelle runs --import run.zip      # of 'gazelle export RUN --format run'
 
-An archive may come from anybody: nothing in it is executed. If the run names
-modules of its own, 'gazelle eval' and 'gazelle train' need --trust.
+Importing an archive executes nothing in it. If the run names Python modules of
+its own, 'gazelle eval' and 'gazelle train' need --trust.
 """  # this is the text of --help
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ if TYPE_CHECKING:
 
 _HEAD = ("RUN", "SEED", "STEPS", "SUCCESS", "RETURN", "TIME")
 _LEGEND = """\
-SUCCESS, RETURN: of the last episodes of the training; 'gazelle eval RUN' tries
-starts and goals that were not trained on. 'gazelle train --resume RUN' goes on
-with one that is not finished; 'gazelle plot RUN RUN curves.png' compares them.
+SUCCESS, RETURN: means of the last training episodes. 'gazelle eval RUN' evaluates
+on starts and goals that were not trained on, 'gazelle train --resume RUN' continues
+an unfinished run, 'gazelle plot RUN RUN curves.png' compares runs.
 """
 
 
@@ -36,7 +36,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="FOLDER",
         type=Path,
         default=[Path("runs")],
-        help="folder of the runs (default runs)",
+        help="folder with runs (default runs)",
     )
     parser.add_argument(
         "--import",
@@ -45,7 +45,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         type=Path,
         action="append",
         default=[],
-        help="first unpack a run that was exported, into the first folder (repeatable)",
+        help="first unpack an exported run into the first folder (repeatable)",
     )
 
 

@@ -1,11 +1,11 @@
-"""Open a shell in which roscore, rostopic, rosrun and roslaunch are Gazelle's.
+"""Open a shell with Gazelle's roscore, rostopic, rosrun, roslaunch and others.
 
   gazelle shell
   gazelle shell -c 'rostopic list'
 
-So are rosbag, rosnode, rosparam, rosservice, rosmsg, rospack, xacro, gzserver
-and python, which finds rospy. Leave the shell with 'exit' or Ctrl-D; nothing
-outside it is changed.
+The others are rosbag, rosnode, rosparam, rosservice, rosmsg, rospack, xacro,
+gzserver, and a python that can import rospy. Leave the shell with 'exit' or
+Ctrl-D; nothing outside it is changed.
 """  # this is the text of --help
 
 from __future__ import annotations
@@ -33,7 +33,9 @@ PS1="(gazelle) $PS1"
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("-c", dest="command", metavar="COMMAND", help="run this instead, and end")
+    parser.add_argument(
+        "-c", dest="command", metavar="COMMAND", help="run this command in the shell, then exit"
+    )
 
 
 def run(args: argparse.Namespace) -> int:

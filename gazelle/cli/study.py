@@ -1,6 +1,6 @@
-"""Call a function of yours with many parameters and seeds, on all processors or
-on a cluster, and write what it returns into one table. A study that was stopped
-continues when the same command is given again.
+"""Run a function for all combinations of parameters and seeds, on all processors
+or on a cluster, and write its results into a table. The same command continues
+a stopped study.
 
   gazelle study my_study.py:run --vary speed=0.2,0.5 --seeds 20
   gazelle study my_study.py:run --seeds 1000 --ray auto --out stalls.csv
@@ -20,7 +20,9 @@ from gazelle_ros.base.argument_types import positive_int
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument(
-        "function", metavar="FILE:FUNCTION", help="called as FUNCTION(seed=..., NAME=...)"
+        "function",
+        metavar="FILE:FUNCTION",
+        help="function to run, called as FUNCTION(seed=..., NAME=...)",
     )
     parser.add_argument(
         "--vary",
@@ -28,10 +30,17 @@ def configure(parser: argparse.ArgumentParser) -> None:
         action="append",
         type=_values,
         default=[],
-        help="values of a parameter; all combinations are tried (repeatable)",
+        help="values of a parameter (repeatable)",
     )
-    parser.add_argument("--seeds", metavar="N", type=positive_int, default=1, help="default 1")
-    parser.add_argument("--workers", metavar="N", type=positive_int, help="default: processors")
+    parser.add_argument(
+        "--seeds", metavar="N", type=positive_int, default=1, help="number of seeds (default 1)"
+    )
+    parser.add_argument(
+        "--workers",
+        metavar="N",
+        type=positive_int,
+        help="number of processes (default: one per processor)",
+    )
     parser.add_argument(
         "--ray",
         metavar="ADDRESS",
@@ -40,7 +49,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="run the workers on a Ray cluster (default: one on this machine)",
     )
     parser.add_argument(
-        "--out", metavar="FILE", type=Path, default=Path("study.csv"), help="default study.csv"
+        "--out",
+        metavar="FILE",
+        type=Path,
+        default=Path("study.csv"),
+        help="output table (default study.csv)",
     )
 
 

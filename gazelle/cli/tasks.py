@@ -119,7 +119,7 @@ def _details(task: Task) -> str:
         ("train", f"gazelle train {_typed(task)}"),
         (
             "recipe",
-            f"{recipe.algo}, {recipe.steps:,} control steps, {recipe.num_envs} copies{where}",
+            f"{recipe.algo}, {recipe.steps:,} control steps, {recipe.num_envs} environments{where}",
         ),
         *(_figures(own) if own else [("figure", _why_not(task) or "none is known of this task")]),
     ]

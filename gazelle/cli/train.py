@@ -1,5 +1,5 @@
-"""Train a policy for a task on many copies of its world at once, or resume a run
-that was stopped. Ctrl-C and SIGTERM save a checkpoint first.
+"""Train a policy for a task in parallel environments, or resume a stopped run.
+Ctrl-C and SIGTERM save a checkpoint.
 
   gazelle train TurtleBot3Stage1
   gazelle train TurtleBot3Stage4 --steps 2e6 --seed 3
@@ -40,17 +40,19 @@ if TYPE_CHECKING:
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument(
-        "task", nargs="?", metavar="TASK", help="a name from 'gazelle tasks', or MODULE:ID"
+        "task", nargs="?", metavar="TASK", help="task from 'gazelle tasks', or MODULE:ID"
     )
     parser.add_argument(
-        "--algo", metavar="NAME", help="ppo, dqn, sac, td3, ddpg, a2c, tqc, trpo, ..."
+        "--algo", metavar="NAME", help="algorithm: ppo, dqn, sac, td3, ddpg, a2c, tqc, trpo, ..."
     )
     parser.add_argument(
-        "--steps", metavar="N", type=positive_int, help="control steps, all copies together"
+        "--steps", metavar="N", type=positive_int, help="total number of environment steps"
     )
-    parser.add_argument("--num-envs", metavar="N", type=positive_int, help="copies at once")
-    parser.add_argument("--seed", metavar="N", type=int, help="seed of everything (default 0)")
-    parser.add_argument("--resume", metavar="RUN", type=Path, help="continue this run")
+    parser.add_argument(
+        "--num-envs", metavar="N", type=positive_int, help="number of parallel environments"
+    )
+    parser.add_argument("--seed", metavar="N", type=int, help="random seed (default 0)")
+    parser.add_argument("--resume", metavar="RUN", type=Path, help="resume this run")
     parser.add_argument(
         "--checkpoint-every", metavar="N", type=positive_int, help="steps between checkpoints"
     )
@@ -58,7 +60,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--eval-every",
         metavar="N",
         type=positive_int,
-        help="steps between evaluations; the best policy is kept",
+        help="steps between evaluations; the best policy is saved",
     )
     parser.add_argument(
         "--set",
@@ -67,27 +69,25 @@ def configure(parser: argparse.ArgumentParser) -> None:
         action="append",
         type=key_value,
         default=[],
-        help="a value of the recipe, such as net_arch=[128,128] or batch_size=512 (repeatable)",
+        help="hyperparameter, such as net_arch=[128,128] or batch_size=512 (repeatable)",
     )
     parser.add_argument(
         "--callback",
         metavar="MODULE:CLASS",
         action="append",
         default=[],
-        help="a callback of Stable-Baselines3 of your own (repeatable)",
+        help="Stable-Baselines3 callback class to add (repeatable)",
     )
     parser.add_argument(
         "--sweep",
         metavar="FILE",
         type=Path,
-        help="search values of the recipe, or continue a search",
+        help="search hyperparameters as this file says, or resume the search",
     )
     parser.add_argument(
         "--out", metavar="DIR", type=Path, help="parent folder of the run (default runs)"
     )
-    add_worker_options(
-        parser, "processes that play rollouts; the result does not depend on their number"
-    )
+    add_worker_options(parser, "number of rollout processes; results do not depend on it")
     add_view(parser, COPIES)
     add_import_option(parser)
     add_file_options(parser)
@@ -119,7 +119,8 @@ def _begin(args: argparse.Namespace) -> TrainResult:
     engine = {**recipe.training_options, **options}.get("engine")
     where = "" if engine is None else f", engine {engine}"
     sys.stderr.write(
-        f"{recipe.algo}: {_steps(planned)}, {planned.num_envs} copies, seed {seed}{where}\n"
+        f"{recipe.algo}: {planned.rounded_steps:,} steps, {planned.num_envs} environments, "
+        f"seed {seed}{where}\n{_rounding(planned)}"
     )
     from gazelle.training import train  # imports torch, which takes seconds
 
@@ -147,7 +148,8 @@ def _resume(args: argparse.Namespace) -> TrainResult:
 
     config = Run.open(args.resume).config
     planned = replace(config.recipe, steps=args.steps or config.recipe.steps)
-    sys.stderr.write(f"{config.task}, {planned.algo}: to {_steps(planned)}\n")
+    sys.stderr.write(f"{config.task}, {planned.algo}: to {planned.rounded_steps:,} steps\n")
+    sys.stderr.write(_rounding(planned))
     from gazelle.training import resume  # imports torch, which takes seconds
 
     return resume(
@@ -198,13 +200,12 @@ def _require_task(args: argparse.Namespace) -> None:
     find_task(args.task)
 
 
-def _steps(recipe: Recipe) -> str:
-    """Return the control steps of a training, and the reason if they are more than it was given."""
-    text = f"{recipe.rounded_steps:,} control steps"
+def _rounding(recipe: Recipe) -> str:
+    """Return a line that says why more steps than requested are trained; empty if they are not."""
     if recipe.rounded_steps == recipe.steps:
-        return text
+        return ""
     size = f"{recipe.num_envs} x {recipe.rollout_steps or 1}"
-    return f"{text} ({recipe.steps:,} rounded up to whole rollouts of {size})"
+    return f"  {recipe.steps:,} steps, rounded up to whole rollouts of {size}\n"
 
 
 def _short(value: object) -> str:
@@ -243,10 +244,10 @@ def _check(args: argparse.Namespace) -> None:
     """Check for options that exclude each other."""
     parser: argparse.ArgumentParser = args.parser
     if args.view is not None and (args.workers is not None or args.ray is not None):
-        parser.error("a view shows copies of this process; leave out --workers and --ray")
+        parser.error("--view cannot be used with --workers or --ray")
     if args.resume is None:
         if args.task is None:
-            parser.error("which task? (or which run, with --resume)")
+            parser.error("a task, or a run with --resume, is required")
         return
     fixed = ["task", "algo", "num_envs", "seed", "checkpoint_every", "eval_every", "out"]
     fixed += ["engine", "world", "robot", "goals", "starts"]
@@ -256,4 +257,4 @@ def _check(args: argparse.Namespace) -> None:
     if given or args.option:
         name = (given or ["option"])[0].replace("_", "-")
         name = name if name == "task" else f"--{name}"
-        parser.error(f"a resumed run keeps what it was started with; leave out {name}")
+        parser.error(f"a resumed run keeps its settings; leave out {name}")

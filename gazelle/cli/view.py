@@ -30,16 +30,16 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "file",
         metavar="FILE",
         nargs="?",
-        help="a world, robot or recording; without it the ROS graph",
+        help="world, robot or recording (default: the running ROS graph)",
     )
-    parser.add_argument("--engine", metavar="NAME", help="mujoco or planar")
-    parser.add_argument("--seed", metavar="N", type=int, default=0, help="default 0")
+    parser.add_argument("--engine", metavar="NAME", help="physics engine: mujoco or planar")
+    parser.add_argument("--seed", metavar="N", type=int, default=0, help="random seed (default 0)")
     add_ground(parser)
     parser.add_argument(
-        "--frame", metavar="NAME", help="fixed frame of a graph (default map, odom ...)"
+        "--frame", metavar="NAME", help="fixed frame, for a ROS graph (default: map, odom ...)"
     )
     parser.add_argument(
-        "--layout", metavar="NAME", help="of a graph: a layout that was saved on the page"
+        "--layout", metavar="NAME", help="saved page layout to open, for a ROS graph"
     )
     parser.add_argument(
         "--port",
@@ -47,7 +47,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="PORT",
         type=port_number,
         default=0,
-        help="of the page (default any)",
+        help="port of the page (default: any free port)",
     )
 
 

@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from gazelle.training import Progress
 
 
-LIVE = "a page in a browser on this machine that shows it live and lets you take part; its address is printed"
-COPIES = "a page in a browser on this machine with some of the copies and the curve; its address is printed"
+LIVE = "serve a web page on this machine with a live, interactive 3D view; print its address"
+COPIES = "serve a web page on this machine with some environments and the learning curve; print its address"
 
 
 def add_view(parser: argparse.ArgumentParser, purpose: str = LIVE) -> None:

@@ -1,4 +1,8 @@
-"""List the worlds that come with Gazelle: what each is, or its file."""
+"""List the bundled worlds.
+
+gazelle worlds
+gazelle worlds --long
+"""  # this is the text of --help
 
 from __future__ import annotations
 

@@ -144,7 +144,7 @@ MOVE_BASE = """<launch>
             "TrajectoryPlannerROS/sim_time",
             "long",
             ("base_local_planner/TrajectoryPlannerROS", "built in"),
-            ":2: /robot/move_base: the parameter 'sim_time' is a float, not 'long'",
+            ":2: /robot/move_base: the parameter 'sim_time' must be of type float, not 'long'",
         ),
     ],
 )

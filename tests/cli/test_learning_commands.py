@@ -30,7 +30,7 @@ def run(tmp_path_factory):
 def test_train_says_what_it_did_and_what_to_type_next(cli, tmp_path):
     code, out, err = cli("train", "CartPole-v1", *SHORT, "--out", tmp_path, "--seed", 3)
     assert code == 0
-    assert err == "ppo: 2,048 control steps, 8 copies, seed 3\n"
+    assert err == "ppo: 2,048 steps, 8 environments, seed 3\n"
     (folder,) = tmp_path.iterdir()
     assert re.search(r"trained: 2,048 control steps, [\d,]+ a second\n +[\d.]+ s for .* RTF", out)
     assert f"next:    gazelle eval {folder}" in out
@@ -47,7 +47,8 @@ def test_train_says_what_it_does_before_it_imports_torch(tmp_path):
     ran = subprocess.run(
         [sys.executable, "-c", code, str(tmp_path)], capture_output=True, text=True, check=False
     )
-    assert ran.stderr.startswith("ppo: 507,904 control steps (500,000 rounded up to ")
+    assert ran.stderr.startswith("ppo: 507,904 steps, ")
+    assert "  500,000 steps, rounded up to whole rollouts of " in ran.stderr
     assert "torch" in ran.stderr
 
 
@@ -77,7 +78,7 @@ def test_resume_of_a_finished_run_has_nothing_to_do(cli, run):
 @pytest.mark.parametrize(
     ("arguments", "complaint"),
     [
-        ((), "which task?"),
+        ((), "a task, or a run with --resume, is required"),
         (("CartPole-v1", "--resume", "x"), "leave out task"),
         (("--resume", "x", "--num-envs", "5"), "leave out --num-envs"),
         (("--resume", "x", "--goals", "published"), "leave out --goals"),

@@ -80,7 +80,7 @@ def test_a_taken_port_is_one_clear_error(cli):
         code, _, err = cli("master", "--port", port, "--no-rosout")
     assert code == 1
     assert f"cannot listen on 127.0.0.1:{port}" in err
-    assert "a program that is no ROS master has that port" in err
+    assert "a program that is not a ROS master has that port" in err
     assert "--port 11312" in err
 
 

@@ -63,7 +63,7 @@ def test_nothing_is_overwritten(written, capsys):
 
 def test_a_name_that_cannot_be(tmp_path, capsys):
     assert main(["new", "task", "my task", "--out", str(tmp_path)]) == 1
-    assert "'my task' cannot be the name of a task" in capsys.readouterr().err
+    assert "'my task' is not a valid name of a task" in capsys.readouterr().err
     assert not list(tmp_path.iterdir())
 
 

@@ -120,7 +120,7 @@ def test_columns_of_a_table(tmp_path):
     ("words", "said"),
     [
         (["drive.bag", "x.png", "--topic", "/odm"], "did you mean '/odom'?"),
-        (["drive.bag", "x.png", "--field", "/odom/twist"], "/odom/twist is no number"),
+        (["drive.bag", "x.png", "--field", "/odom/twist"], "/odom/twist is not a number"),
         (["drive.bag", "x.png", "--field", "/odom/pos/x"], "there is no 'pos' in it"),
         (["drive.bag", "x.png", "--field", "/speed"], "no topic of the bag"),
         (["drive.bag", "x.gif"], "a plot is written as .png, .svg, .pdf, not as '.gif'"),

@@ -258,7 +258,7 @@ def test_a_fleet_that_stands_says_how_it_moves(cli):
     code, out, _ = cli("run", "empty", "--for", 0.1, "--rate", "max")
     assert (code, line in out) == (0, False)
     code, _, err = cli("run", "fleet", "--for", 0.1, "--wander", "--ros")
-    assert (code, "leave out --wander or --ros" in err) == (2, True)
+    assert (code, "--wander and --ros cannot be used together" in err) == (2, True)
 
 
 @pytest.mark.parametrize("world", ["fleet", "empty"])

@@ -19,26 +19,67 @@ from gazelle_ros.base.output import say, say_line
 def configure_record(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of recording."""
     parser.add_argument("topics", nargs="*", metavar="/TOPIC")
-    what = parser.add_argument_group("what")
-    what.add_argument("-a", "--all", action="store_true", help="all topics, new ones too")
-    what.add_argument("-e", "--regex", action="store_true", help="topics are regular expressions")
-    what.add_argument("-x", "--exclude", default="", metavar="REGEX", help="not these topics")
-    what.add_argument("--node", default="", help="what a node subscribes to")
-    what.add_argument("-p", "--publish", action="store_true", help="tell /begin_write of each file")
-    what.add_argument("-l", "--limit", type=int, default=0, metavar="N", help="messages a topic")
-    where = parser.add_argument_group("where to")
-    where.add_argument("-o", "--output-prefix", default="", metavar="PREFIX", dest="prefix")
-    where.add_argument("-O", "--output-name", default="", metavar="NAME", dest="name")
-    where.add_argument("--split", action="store_true", help="a new file at the limits")
-    where.add_argument("--max-splits", type=int, default=0, metavar="N", help="keep N files")
-    where.add_argument("--size", type=positive_int, metavar="MB", help="at most, of a file")
-    where.add_argument("--duration", metavar="TIME", help="at most, of a file: 30, 5m, 2h")
-    where.add_argument("--repeat-latched", action="store_true", help="in each split file")
+    what = parser.add_argument_group("topics")
+    what.add_argument(
+        "-a", "--all", action="store_true", help="record all topics, including new ones"
+    )
+    what.add_argument(
+        "-e", "--regex", action="store_true", help="treat topics as regular expressions"
+    )
+    what.add_argument(
+        "-x", "--exclude", default="", metavar="REGEX", help="exclude topics that match"
+    )
+    what.add_argument("--node", default="", help="record all topics that a node subscribes to")
+    what.add_argument(
+        "-p",
+        "--publish",
+        action="store_true",
+        help="publish the name of each new file on /begin_write",
+    )
+    what.add_argument(
+        "-l",
+        "--limit",
+        type=int,
+        default=0,
+        metavar="N",
+        help="maximum number of messages per topic",
+    )
+    where = parser.add_argument_group("output")
+    where.add_argument(
+        "-o",
+        "--output-prefix",
+        default="",
+        metavar="PREFIX",
+        dest="prefix",
+        help="prefix of the file name",
+    )
+    where.add_argument(
+        "-O", "--output-name", default="", metavar="NAME", dest="name", help="name of the bag"
+    )
+    where.add_argument(
+        "--split", action="store_true", help="start a new file at --size or --duration"
+    )
+    where.add_argument(
+        "--max-splits", type=int, default=0, metavar="N", help="keep only the last N files"
+    )
+    where.add_argument("--size", type=positive_int, metavar="MB", help="maximum size of a file")
+    where.add_argument("--duration", metavar="TIME", help="maximum duration of a file: 30, 5m, 2h")
+    where.add_argument(
+        "--repeat-latched", action="store_true", help="repeat latched messages in each file"
+    )
     add_compression(where)
-    more = parser.add_argument_group("more")
-    more.add_argument("-b", "--buffsize", metavar="MB", help="no effect: nothing is held back")
-    more.add_argument("--chunksize", type=positive_int, default=768, metavar="KB")
-    more.add_argument("--tcpnodelay", action="store_true", help="ask for it")
+    more = parser.add_argument_group("other")
+    more.add_argument(
+        "-b", "--buffsize", metavar="MB", help="ignored; messages are written at once"
+    )
+    more.add_argument(
+        "--chunksize",
+        type=positive_int,
+        default=768,
+        metavar="KB",
+        help="size of chunks (default 768)",
+    )
+    more.add_argument("--tcpnodelay", action="store_true", help="request TCP_NODELAY")
     more.add_argument("--udp", action="store_true", help=argparse.SUPPRESS)
     more.add_argument("-q", "--quiet", action="store_true", help="say nothing")
     parser.set_defaults(compression="none", parser=parser)
@@ -47,8 +88,17 @@ def configure_record(parser: argparse.ArgumentParser) -> None:
 def add_compression(parser: Any) -> None:
     """Declare the kinds of compression."""
     kinds = parser.add_mutually_exclusive_group()
-    kinds.add_argument("-j", "--bz2", dest="compression", action="store_const", const="bz2")
-    kinds.add_argument("--lz4", dest="compression", action="store_const", const="lz4")
+    kinds.add_argument(
+        "-j",
+        "--bz2",
+        dest="compression",
+        action="store_const",
+        const="bz2",
+        help="compress with bz2",
+    )
+    kinds.add_argument(
+        "--lz4", dest="compression", action="store_const", const="lz4", help="compress with lz4"
+    )
 
 
 def record(args: argparse.Namespace, node_options: Mapping[str, Any] | None = None) -> int:
@@ -90,27 +140,77 @@ def record(args: argparse.Namespace, node_options: Mapping[str, Any] | None = No
 def configure_play(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of playing."""
     parser.add_argument("bags", nargs="*", metavar="BAG")
-    when = parser.add_argument_group("when")
-    when.add_argument("-r", "--rate", type=positive_float, default=1.0, metavar="X", help="faster")
+    when = parser.add_argument_group("time")
     when.add_argument(
-        "-s", "--start", type=seconds, default=0.0, metavar="S", help="seconds into it"
+        "-r",
+        "--rate",
+        type=positive_float,
+        default=1.0,
+        metavar="X",
+        help="speed factor (default 1)",
     )
-    when.add_argument("-u", "--duration", type=positive_float, metavar="S", help="seconds of it")
-    when.add_argument("-l", "--loop", action="store_true", help="again and again")
-    when.add_argument("-i", "--immediate", action="store_true", help="as fast as possible")
-    when.add_argument("--pause", action="store_true", help="begin paused")
-    when.add_argument("-d", "--delay", type=seconds, default=0.2, metavar="S", help="before it")
-    when.add_argument("--skip-empty", type=positive_float, metavar="S", help="jump over gaps")
-    when.add_argument("--wait-for-subscribers", action="store_true", help="of every topic")
-    when.add_argument("-k", "--keep-alive", action="store_true", help="stay after the end")
-    what = parser.add_argument_group("what")
-    what.add_argument("--topics", nargs="+", default=[], metavar="/TOPIC", help="only these")
-    what.add_argument("--pause-topics", nargs="+", default=[], metavar="/TOPIC")
-    what.add_argument("--bags", nargs="+", default=[], dest="more_bags", metavar="BAG")
-    what.add_argument("-p", "--prefix", default="", help="before the names of topics")
+    when.add_argument(
+        "-s",
+        "--start",
+        type=seconds,
+        default=0.0,
+        metavar="S",
+        help="start this many seconds into the bag",
+    )
+    when.add_argument(
+        "-u", "--duration", type=positive_float, metavar="S", help="play only this many seconds"
+    )
+    when.add_argument("-l", "--loop", action="store_true", help="repeat until interrupted")
+    when.add_argument("-i", "--immediate", action="store_true", help="publish without waiting")
+    when.add_argument("--pause", action="store_true", help="start paused")
+    when.add_argument(
+        "-d",
+        "--delay",
+        type=seconds,
+        default=0.2,
+        metavar="S",
+        help="wait after advertising the topics [s] (default 0.2)",
+    )
+    when.add_argument(
+        "--skip-empty", type=positive_float, metavar="S", help="skip gaps longer than this [s]"
+    )
+    when.add_argument(
+        "--wait-for-subscribers", action="store_true", help="wait for a subscriber of every topic"
+    )
+    when.add_argument(
+        "-k", "--keep-alive", action="store_true", help="keep the topics advertised after the end"
+    )
+    what = parser.add_argument_group("topics")
+    what.add_argument(
+        "--topics", nargs="+", default=[], metavar="/TOPIC", help="play only these topics"
+    )
+    what.add_argument(
+        "--pause-topics",
+        nargs="+",
+        default=[],
+        metavar="/TOPIC",
+        help="pause before messages of these topics",
+    )
+    what.add_argument(
+        "--bags",
+        nargs="+",
+        default=[],
+        dest="more_bags",
+        metavar="BAG",
+        help="further bags to play",
+    )
+    what.add_argument("-p", "--prefix", default="", help="prefix for the names of all topics")
     what.add_argument("--clock", action="store_true", help="publish /clock")
-    what.add_argument("--hz", type=positive_float, default=100.0, help="of /clock")
-    what.add_argument("--queue", type=positive_int, default=100, metavar="N")
+    what.add_argument(
+        "--hz", type=positive_float, default=100.0, help="rate of /clock (default 100)"
+    )
+    what.add_argument(
+        "--queue",
+        type=positive_int,
+        default=100,
+        metavar="N",
+        help="queue size of publishers (default 100)",
+    )
     what.add_argument("-q", "--quiet", action="store_true", help="say nothing")
     what.add_argument("--try-future-version", action="store_true", help=argparse.SUPPRESS)
     parser.set_defaults(parser=parser)

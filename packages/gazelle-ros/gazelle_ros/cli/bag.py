@@ -5,7 +5,7 @@ gazelle bag play drive.bag --clock -r 2 /scan:=/old_scan
 gazelle bag info drive.bag
 gazelle bag filter drive.bag scans.bag "topic == '/scan'"
 gazelle bag to-mcap drive.bag drive.mcap
-"""
+"""  # this is the text of --help
 
 from __future__ import annotations
 
@@ -23,39 +23,62 @@ def configure(parser: argparse.ArgumentParser) -> None:
     from gazelle_ros.bags.commandline import add_compression, configure_play, configure_record
 
     commands = SubCommands(parser)
-    configure_record(commands.add("record", "record topics", _record))
-    configure_play(commands.add("play", "publish recorded messages", _play))
-    info = commands.add("info", "contents of bags", _info)
+    configure_record(commands.add("record", "record topics", _record, "-O drive /scan /odom", "-a"))
+    configure_play(
+        commands.add("play", "play back bags", _play, "drive.bag --clock -r 2 /scan:=/old_scan")
+    )
+    info = commands.add("info", "show the contents of bags", _info, "drive.bag")
     info.add_argument("bags", nargs="+", metavar="BAG")
-    info.add_argument("-y", "--yaml", action="store_true", help="as YAML")
-    info.add_argument("-k", "--key", help="one value of it")
-    info.add_argument("--freq", action="store_true", help="rates of topics too")
-    checking = commands.add("check", "compare the types of a bag with the bundled ones", _check)
+    info.add_argument("-y", "--yaml", action="store_true", help="print YAML")
+    info.add_argument("-k", "--key", help="print only this key of the YAML")
+    info.add_argument("--freq", action="store_true", help="show the rates of topics")
+    checking = commands.add(
+        "check", "compare the message types of a bag with the bundled ones", _check
+    )
     checking.add_argument("bag", metavar="BAG")
-    filtering = commands.add("filter", "copy the messages that an expression chooses", _filter)
+    filtering = commands.add(
+        "filter",
+        "copy the messages for which an expression is true",
+        _filter,
+        "drive.bag scans.bag \"topic == '/scan'\"",
+    )
     filtering.add_argument("source", metavar="IN")
     filtering.add_argument("target", metavar="OUT")
-    filtering.add_argument("expression", metavar="EXPR", help="Python, with topic, m and t")
-    filtering.add_argument("-p", "--print", dest="shown", metavar="EXPR", help="show of each")
-    fixing = commands.add("fix", "copy a bag with the bundled types", _fix)
+    filtering.add_argument(
+        "expression", metavar="EXPR", help="Python expression of topic, message m and time t"
+    )
+    filtering.add_argument(
+        "-p",
+        "--print",
+        dest="shown",
+        metavar="EXPR",
+        help="expression to print for each copied message",
+    )
+    fixing = commands.add("fix", "copy a bag and convert it to the bundled message types", _fix)
     fixing.add_argument("source", metavar="IN")
     fixing.add_argument("target", metavar="OUT")
     fixing.add_argument("rules", nargs="*", metavar="RULES", help=argparse.SUPPRESS)
-    fixing.add_argument("--force", action="store_true", help="copy it although types differ")
+    fixing.add_argument(
+        "--force", action="store_true", help="copy even if some types cannot be converted"
+    )
     fixing.add_argument("-n", "--noplugins", action="store_true", help=argparse.SUPPRESS)
-    mcap = commands.add("to-mcap", "copy a bag into an MCAP file, for Foxglove", _to_mcap)
+    mcap = commands.add(
+        "to-mcap", "convert a bag to MCAP, for Foxglove", _to_mcap, "drive.bag drive.mcap"
+    )
     mcap.add_argument("source", metavar="IN")
-    mcap.add_argument("target", metavar="OUT", nargs="?", help="default: IN with .mcap")
+    mcap.add_argument(
+        "target", metavar="OUT", nargs="?", help="output file (default: IN with suffix .mcap)"
+    )
     for name, purpose, action in (
-        ("reindex", "repair truncated bags", _reindex),
+        ("reindex", "rebuild the index of truncated bags", _reindex),
         ("compress", "compress bags", _compress),
-        ("decompress", "undo compress", _compress),
+        ("decompress", "decompress bags", _compress),
     ):
-        sub = commands.add(name, purpose, action)
+        sub = commands.add(name, purpose, action, "drive.bag")
         sub.add_argument("bags", nargs="+", metavar="BAG")
-        sub.add_argument("--output-dir", default="", metavar="DIR", help="write there")
-        sub.add_argument("-f", "--force", action="store_true", help="overwrite a backup")
-        sub.add_argument("-q", "--quiet", action="store_true", help="say nothing")
+        sub.add_argument("--output-dir", default="", metavar="DIR", help="output folder")
+        sub.add_argument("-f", "--force", action="store_true", help="overwrite an existing backup")
+        sub.add_argument("-q", "--quiet", action="store_true", help="print nothing")
         sub.set_defaults(compression="none" if name == "decompress" else "bz2")
         if name == "compress":
             add_compression(sub)
@@ -153,7 +176,7 @@ def _bags(args: argparse.Namespace, *, allow_unindexed: bool = False) -> list[st
     """Return the bags that are to be replaced, each once, after a look at all.
 
     Raises:
-        BagError: One is no bag, so that none is replaced.
+        BagError: One is not a bag, so that none is replaced.
     """
     from gazelle_ros.bags.reader import BagReader
 

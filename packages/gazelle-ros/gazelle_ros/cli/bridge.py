@@ -5,9 +5,9 @@
   gazelle bridge --address 0.0.0.0 --allow-origin 'https://robots.example.org'
 
 roslibpy, roslib.js and Foxglove connect to ws://localhost:9090. Only this
-machine can reach it unless --address names an address of a network; pages of
-other sites that a browser has open are refused unless --allow-origin fits, and
-pages opened as files (origin 'null') unless it is --allow-origin null.
+machine can reach it unless --address names an address of a network. Web pages
+of other origins are refused unless they match --allow-origin; pages opened as
+files have the origin 'null'.
 """  # this is the text of --help
 
 from __future__ import annotations
@@ -21,7 +21,11 @@ from gazelle_ros.base.output import say
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument(
-        "-p", "--port", type=port_number, default=9090, help="default: 9090; 0 for any free one"
+        "-p",
+        "--port",
+        type=port_number,
+        default=9090,
+        help="port (default 9090; 0 for any free port)",
     )
     parser.add_argument(
         "--address", default="127.0.0.1", help="to listen on (default: loopback only)"

@@ -30,11 +30,20 @@ class Command:
     """Headline it stands under."""
     module: str
     """Full name of its module."""
+    text: str = ""
+    """Head of its help; by default the docstring of its module."""
 
     def load(self) -> CommandModule:
         """Import its module."""
         return cast("CommandModule", importlib.import_module(self.module))
 
+
+_SRV = """List and show service types, as rossrv does.
+
+  gazelle srv list
+  gazelle srv show std_srvs/SetBool
+  gazelle srv md5 gazebo_msgs/SpawnModel
+"""
 
 COMMANDS = {
     command.name: command
@@ -53,7 +62,7 @@ COMMANDS = {
             "topic", "list, show, publish and measure topics", "ROS 1", "gazelle_ros.cli.topic"
         ),
         Command("service", "list, show and call services", "ROS 1", "gazelle_ros.cli.service"),
-        Command("node", "list, show, ping and end nodes", "ROS 1", "gazelle_ros.cli.node"),
+        Command("node", "list, show, ping and stop nodes", "ROS 1", "gazelle_ros.cli.node"),
         Command("param", "get, set, load and dump parameters", "ROS 1", "gazelle_ros.cli.param"),
         Command(
             "bridge",
@@ -62,7 +71,7 @@ COMMANDS = {
             "gazelle_ros.cli.bridge",
         ),
         Command("bag", "record, play and inspect bag files", "ROS 1", "gazelle_ros.cli.bag"),
-        Command("msg", "show messages: fields, MD5 sums", "ROS 1", "gazelle_ros.cli.messages"),
-        Command("srv", "show services: fields, MD5 sums", "ROS 1", "gazelle_ros.cli.messages"),
+        Command("msg", "list and show message types", "ROS 1", "gazelle_ros.cli.messages"),
+        Command("srv", "list and show service types", "ROS 1", "gazelle_ros.cli.messages", _SRV),
     )
 }

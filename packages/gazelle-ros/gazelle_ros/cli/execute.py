@@ -5,10 +5,10 @@
   gazelle exec --sim-sleep train.py
   gazelle exec my_package talker.py
 
-rospy, tf, actionlib, std_msgs.msg and the rest are Gazelle's own; an installed
-ROS is not touched. Packages on ROS_PACKAGE_PATH give their messages and their
-Python code. A package and a program in it may stand for the script, as with
-rosrun. So may a command of ROS: 'gazelle exec rostopic list'.
+rospy, tf, actionlib, std_msgs.msg and others are Gazelle's own modules; an
+installed ROS is not used. Messages and Python code of packages on
+ROS_PACKAGE_PATH can be imported. Instead of a script, give a package and a
+program in it, as with rosrun, or a ROS command: 'gazelle exec rostopic list'.
 """  # this is the text of --help
 
 from __future__ import annotations

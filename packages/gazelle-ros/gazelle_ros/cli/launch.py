@@ -1,4 +1,4 @@
-"""Run a roslaunch file: start its nodes, and end them with Ctrl-C.
+"""Run a roslaunch file: start its nodes, and stop them at Ctrl-C.
 
   gazelle launch turtlebot3_gazebo turtlebot3_world.launch model:=waffle
   gazelle launch ./my.launch gui:=false
@@ -42,40 +42,63 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="[PKG] FILE | arg:=value",
         help="a launch file, '-' for standard input, or a package and a file in it",
     )
-    shows = parser.add_argument_group("show instead of run")
-    shows.add_argument("--ros-args", action="store_true", help="the arguments that the file takes")
-    shows.add_argument("--files", action="store_true", help="the launch files that are read")
-    shows.add_argument("--nodes", action="store_true", help="the nodes")
-    shows.add_argument("--find-node", "--find", metavar="NODE", help="the launch file a node is in")
-    shows.add_argument("--args", metavar="NODE", help="the command line of a node")
-    shows.add_argument("--dump-params", action="store_true", help="the parameters, as YAML")
+    shows = parser.add_argument_group("print information instead of running")
+    shows.add_argument("--ros-args", action="store_true", help="print the arguments of the file")
+    shows.add_argument("--files", action="store_true", help="print the included launch files")
+    shows.add_argument("--nodes", action="store_true", help="print the names of the nodes")
+    shows.add_argument(
+        "--find-node", "--find", metavar="NODE", help="print the launch file that defines a node"
+    )
+    shows.add_argument("--args", metavar="NODE", help="print the command line of a node")
+    shows.add_argument("--dump-params", action="store_true", help="print the parameters as YAML")
     runs = parser.add_argument_group("run")
-    runs.add_argument("--screen", action="store_true", help="all nodes write to the screen")
-    runs.add_argument("--log", action="store_true", help="all nodes write to log files")
-    runs.add_argument("--required", action="store_true", help="end when any node ends")
+    runs.add_argument("--screen", action="store_true", help="print the output of all nodes")
+    runs.add_argument(
+        "--log", action="store_true", help="write the output of all nodes to log files"
+    )
+    runs.add_argument("--required", action="store_true", help="stop when any node ends")
     runs.add_argument("--core", action="store_true", help="start master and rosout, as roscore")
-    runs.add_argument("--wait", action="store_true", help="wait for a master, start none")
+    runs.add_argument(
+        "--wait", action="store_true", help="wait for a master instead of starting one"
+    )
     runs.add_argument("-p", "--port", type=port_number, help="port of the master")
     runs.add_argument(
         "--nodes-survive",
         action="store_true",
-        help="leave the nodes running if this is killed (kill -9), as roslaunch does",
+        help="leave the nodes running if this process is killed (kill -9), as roslaunch does",
     )
     runs.add_argument("--run_id", default="", metavar="ID", help="run_id of the session")
-    runs.add_argument("--pid", metavar="FILE", help="write the process number to a file")
+    runs.add_argument("--pid", metavar="FILE", help="write the process id to a file")
     runs.add_argument(
-        "-v", "--verbose", action="store_true", help="first show parameters and nodes, as roslaunch"
+        "-v",
+        "--verbose",
+        action="store_true",
+        help="print parameters and nodes first, as roslaunch does",
     )
     runs.add_argument(
-        "--no-summary", action="store_true", help="without a summary of parameters and nodes"
+        "--no-summary", action="store_true", help="do not print a summary of parameters and nodes"
     )
-    runs.add_argument("--sigint-timeout", type=positive_float, default=15.0, metavar="S")
-    runs.add_argument("--sigterm-timeout", type=positive_float, default=2.0, metavar="S")
+    runs.add_argument(
+        "--sigint-timeout",
+        type=positive_float,
+        default=15.0,
+        metavar="S",
+        help="seconds from SIGINT to SIGTERM (default 15)",
+    )
+    runs.add_argument(
+        "--sigterm-timeout",
+        type=positive_float,
+        default=2.0,
+        metavar="S",
+        help="seconds from SIGTERM to SIGKILL (default 2)",
+    )
     tests = parser.add_argument_group("test, as rostest does")
     tests.add_argument("--test", action="store_true", help="run the tests of the files")
-    tests.add_argument("--text", action="store_true", help="tests write to the screen")
+    tests.add_argument("--text", action="store_true", help="print the output of tests")
     tests.add_argument("--results", metavar="DIR", help="write JUnit results below this folder")
-    tests.add_argument("--reuse-master", action="store_true", help="use the running master")
+    tests.add_argument(
+        "--reuse-master", action="store_true", help="use the running master instead of a new one"
+    )
     for option in _NO_EFFECT:
         runs.add_argument(option, action="store_true", help=argparse.SUPPRESS)
     for options in (*_NO_EFFECT_VALUES, *_CHILD):

@@ -176,8 +176,8 @@ def overview(program: CommandLine) -> str:
     lines += [
         "",
         "options:",
-        f"  -h, --help     this text; '{program.name} COMMAND --help' has more",
-        "  -V, --version  the version",
+        f"  -h, --help     show this help; '{program.name} COMMAND --help' shows a command's",
+        "  -V, --version  print the version",
         "  --debug        show tracebacks and all warnings",
         "",
     ]
@@ -248,7 +248,8 @@ def command_parser(program: CommandLine, command: Command) -> Parser:
     """Return the parser of a sub-command's arguments."""
     module = command.load()
     parser = Parser(
-        prog=f"{program.name} {command.name}", description=_usage(program, module.__doc__)
+        prog=f"{program.name} {command.name}",
+        description=_usage(program, command.text or module.__doc__),
     )
     module.configure(parser)
     return parser

@@ -21,15 +21,13 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "-p",
         "--port",
         type=port_number,
-        help="default: the port of ROS_MASTER_URI, else 11311; 0 for any free one",
+        help="port (default: that of ROS_MASTER_URI, else 11311; 0 for any free port)",
     )
     parser.add_argument(
         "--host",
-        help="name or address nodes reach it by (default: loopback only)",
+        help="host name or address to advertise (default: loopback only)",
     )
-    parser.add_argument(
-        "--no-rosout", action="store_true", help="without the node that collects logs"
-    )
+    parser.add_argument("--no-rosout", action="store_true", help="do not start rosout")
 
 
 def run(args: argparse.Namespace) -> int:

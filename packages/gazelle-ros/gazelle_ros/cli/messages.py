@@ -1,10 +1,10 @@
-"""Show and list message types (rosmsg); `gazelle srv`: service types (rossrv).
+"""List and show message types, as rosmsg does.
 
+gazelle msg list
 gazelle msg show geometry_msgs/Twist
 gazelle msg show Twist
 gazelle msg md5 std_msgs/Header
-gazelle srv list
-"""
+"""  # this is the text of --help
 
 from __future__ import annotations
 
@@ -22,16 +22,23 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     commands = SubCommands(parser)
     for name in ("show", "info"):
-        show = commands.add(name, "what a type holds", _show)
+        show = commands.add(name, "show the fields of a type", _show)
         show.add_argument("type", metavar="[PKG/]TYPE")
-        show.add_argument("-r", "--raw", action="store_true", help="as it was written")
-    commands.add("md5", "the MD5 sum of a type", _md5).add_argument("type", metavar="[PKG/]TYPE")
-    commands.add("list", "all types", _list)
-    for name, purpose in (("package", "types of a package"), ("packages", "packages with types")):
+        show.add_argument(
+            "-r", "--raw", action="store_true", help="print the definition unchanged, with comments"
+        )
+    commands.add("md5", "print the MD5 sum of a type", _md5).add_argument(
+        "type", metavar="[PKG/]TYPE"
+    )
+    commands.add("list", "list all types", _list)
+    for name, purpose in (
+        ("package", "list the types of a package"),
+        ("packages", "list packages with types"),
+    ):
         sub = commands.add(name, purpose, _package if name == "package" else _packages)
         if name == "package":
             sub.add_argument("package", metavar="PKG")
-        sub.add_argument("-s", "--single-line", action="store_true", help="on one line")
+        sub.add_argument("-s", "--single-line", action="store_true", help="print one line")
     kind = "srv" if parser.prog.endswith("srv") else "msg"
     parser.set_defaults(kind=kind)
 

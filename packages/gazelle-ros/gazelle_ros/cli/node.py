@@ -1,9 +1,9 @@
-"""Inspect and end nodes, as rosnode does, on any ROS 1 graph.
+"""List, show, ping and stop nodes, as rosnode does, on any ROS 1 graph.
 
 gazelle node list
 gazelle node info /gazebo
 gazelle node ping -c 3 /move_base
-"""
+"""  # this is the text of --help
 
 from __future__ import annotations
 
@@ -25,24 +25,28 @@ _CLEANUP = (
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     commands = SubCommands(parser)
-    listing = commands.add("list", "nodes", _list)
+    listing = commands.add("list", "list nodes", _list, "", "-a")
     listing.add_argument("space", nargs="?", metavar="/NAMESPACE")
-    listing.add_argument("-u", "--uris", action="store_true", help="addresses instead of names")
-    listing.add_argument("-a", "--all", action="store_true", help="addresses and names")
-    info = commands.add("info", "topics, services and connections of nodes", _info)
+    listing.add_argument(
+        "-u", "--uris", action="store_true", help="show addresses instead of names"
+    )
+    listing.add_argument("-a", "--all", action="store_true", help="show addresses and names")
+    info = commands.add("info", "show topics, services and connections of nodes", _info, "/gazebo")
     info.add_argument("nodes", nargs="+", metavar="/NODE")
-    info.add_argument("-q", "--quiet", action="store_true", help="do not ask the nodes")
-    ping = commands.add("ping", "whether a node answers", _ping)
+    info.add_argument("-q", "--quiet", action="store_true", help="do not query the nodes")
+    ping = commands.add("ping", "test whether a node responds", _ping, "-c 3 /move_base", "--all")
     ping.add_argument("node", nargs="?", metavar="/NODE")
-    ping.add_argument("-a", "--all", action="store_true", help="all nodes, once each")
-    ping.add_argument("-c", dest="count", type=positive_int, metavar="COUNT", help="how often")
-    kill = commands.add("kill", "end nodes", _kill)
+    ping.add_argument("-a", "--all", action="store_true", help="ping all nodes once")
+    ping.add_argument(
+        "-c", dest="count", type=positive_int, metavar="COUNT", help="number of pings"
+    )
+    kill = commands.add("kill", "stop nodes", _kill, "/move_base")
     kill.add_argument("nodes", nargs="*", metavar="/NODE")
-    kill.add_argument("-a", "--all", action="store_true", help="all nodes")
-    machine = commands.add("machine", "machines, or the nodes of one", _machine)
+    kill.add_argument("-a", "--all", action="store_true", help="stop all nodes")
+    machine = commands.add("machine", "list machines, or the nodes of a machine", _machine)
     machine.add_argument("machine", nargs="?", metavar="HOST")
-    cleanup = commands.add("cleanup", "forget nodes that do not answer", _cleanup)
-    cleanup.add_argument("-y", "--yes", action="store_true", help="do not ask")
+    cleanup = commands.add("cleanup", "unregister nodes that do not respond", _cleanup)
+    cleanup.add_argument("-y", "--yes", action="store_true", help="do not ask for confirmation")
 
 
 def run(args: argparse.Namespace) -> int:

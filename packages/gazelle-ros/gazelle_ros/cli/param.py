@@ -4,7 +4,7 @@ gazelle param list
 gazelle param set /use_sim_time true
 gazelle param load gains.yaml /arm
 gazelle param dump
-"""
+"""  # this is the text of --help
 
 from __future__ import annotations
 
@@ -21,26 +21,34 @@ from gazelle_ros.cli.tools import SubCommands
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     commands = SubCommands(parser)
-    commands.add("list", "names", _list).add_argument("space", nargs="?", metavar="/NAMESPACE")
-    get = commands.add("get", "value, as YAML", _get)
+    commands.add("list", "list parameter names", _list, "", "/move_base").add_argument(
+        "space", nargs="?", metavar="/NAMESPACE"
+    )
+    get = commands.add("get", "print a value as YAML", _get, "/use_sim_time")
     get.add_argument("name", metavar="/NAME")
-    get.add_argument("-p", dest="pretty", action="store_true", help="for people")
-    setting = commands.add("set", "set to a YAML value; a mapping is merged", _set)
+    get.add_argument("-p", dest="pretty", action="store_true", help="print in a readable layout")
+    setting = commands.add(
+        "set", "set a parameter to a YAML value; mappings are merged", _set, "/use_sim_time true"
+    )
     setting.add_argument("name", metavar="/NAME")
     setting.add_argument("value", nargs="?", metavar="YAML")
     source = setting.add_mutually_exclusive_group()
-    source.add_argument("-t", "--textfile", metavar="FILE", help="to the text of a file")
-    source.add_argument("-b", "--binfile", metavar="FILE", help="to the bytes of a file")
-    load = commands.add("load", "set what a YAML file holds", _load)
-    load.add_argument("file", metavar="FILE", help="'-' for standard input")
+    source.add_argument("-t", "--textfile", metavar="FILE", help="set to the text of a file")
+    source.add_argument("-b", "--binfile", metavar="FILE", help="set to the bytes of a file")
+    load = commands.add("load", "load parameters from a YAML file", _load, "gains.yaml /arm")
+    load.add_argument("file", metavar="FILE", help="YAML file; '-' for standard input")
     load.add_argument("space", nargs="?", metavar="/NAMESPACE")
-    dump = commands.add("dump", "write as YAML", _dump)
-    dump.add_argument("file", nargs="?", metavar="FILE", help="default: standard output")
+    dump = commands.add(
+        "dump", "write parameters to a YAML file", _dump, "", "params.yaml /move_base"
+    )
+    dump.add_argument(
+        "file", nargs="?", metavar="FILE", help="output file (default: standard output)"
+    )
     dump.add_argument("space", nargs="?", metavar="/NAMESPACE")
-    delete = commands.add("delete", "delete", _delete)
+    delete = commands.add("delete", "delete a parameter", _delete, "/move_base")
     delete.add_argument("name", metavar="/NAME")
     for each in (get, setting, load, dump, delete):
-        each.add_argument("-v", "--verbose", action="store_true", help="say what is done")
+        each.add_argument("-v", "--verbose", action="store_true", help="print what is done")
 
 
 def run(args: argparse.Namespace) -> int:

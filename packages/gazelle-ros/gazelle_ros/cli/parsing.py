@@ -75,21 +75,23 @@ def key_value(text: str) -> tuple[str, Any]:
 
 def add_environment_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of every command with an environment."""
-    group = parser.add_argument_group("the environment")
-    group.add_argument("--engine", metavar="NAME", help="physics engine, such as mujoco")
+    group = parser.add_argument_group("environment")
+    group.add_argument(
+        "--engine", metavar="NAME", help="physics engine: mujoco, planar or mujoco-warp"
+    )
     group.add_argument(
         "--option",
         metavar="KEY=VALUE",
         action="append",
         type=key_value,
         default=[],
-        help="any option of the task, such as lidar_samples=360 (repeatable)",
+        help="an option of the task, such as lidar_samples=360 (repeatable)",
     )
 
 
 def add_file_options(parser: argparse.ArgumentParser) -> None:
     """Add the options that replace the files of a task."""
-    group = parser.add_argument_group("the files (by default the bundled ones)")
+    group = parser.add_argument_group("files (default: the bundled ones)")
     group.add_argument("--world", metavar="FILE", help="world: .world or .sdf, or a bundled name")
     group.add_argument(
         "--robot", metavar="FILE", help="robot: .urdf, .xacro or .sdf, or a bundled name"

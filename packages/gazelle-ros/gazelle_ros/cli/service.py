@@ -3,7 +3,7 @@
 gazelle service list
 gazelle service call /gazebo/pause_physics
 gazelle service call /add_two_ints 1 2
-"""
+"""  # this is the text of --help
 
 from __future__ import annotations
 
@@ -18,23 +18,31 @@ from gazelle_ros.cli.tools import SubCommands
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     commands = SubCommands(parser)
-    listing = commands.add("list", "services", _list)
+    listing = commands.add("list", "list services", _list, "", "-n /gazebo")
     listing.add_argument("space", nargs="?", metavar="/NAMESPACE")
-    listing.add_argument("-n", "--nodes", action="store_true", help="the nodes too")
+    listing.add_argument("-n", "--nodes", action="store_true", help="show the nodes too")
     for name, purpose in (
-        ("info", "node, address, type, arguments"),
-        ("type", "type of a service"),
-        ("uri", "address of a service"),
-        ("node", "node of a service"),
-        ("args", "fields of the request"),
+        ("info", "show node, address, type and fields of a service"),
+        ("type", "print the type of a service"),
+        ("uri", "print the address of a service"),
+        ("node", "print the node of a service"),
+        ("args", "print the fields of the request"),
     ):
-        commands.add(name, purpose, _one).add_argument("service", metavar="/SERVICE")
-    commands.add("find", "services of a type", _find).add_argument("type", metavar="PKG/TYPE")
-    call = commands.add("call", "call a service", _call)
+        commands.add(name, purpose, _one, "/gazebo/pause_physics").add_argument(
+            "service", metavar="/SERVICE"
+        )
+    commands.add("find", "list the services of a type", _find, "std_srvs/Empty").add_argument(
+        "type", metavar="PKG/TYPE"
+    )
+    call = commands.add(
+        "call", "call a service", _call, "/gazebo/pause_physics", "/add_two_ints 1 2"
+    )
     call.add_argument("service", metavar="/SERVICE")
-    call.add_argument("values", nargs="*", metavar="YAML", help="all fields, or one mapping")
-    call.add_argument("-v", "--verbose", action="store_true", help="write the request too")
-    call.add_argument("--wait", action="store_true", help="wait until there is the service")
+    call.add_argument(
+        "values", nargs="*", metavar="YAML", help="values of all fields, or one mapping"
+    )
+    call.add_argument("-v", "--verbose", action="store_true", help="print the request too")
+    call.add_argument("--wait", action="store_true", help="wait for the service")
 
 
 def run(args: argparse.Namespace) -> int:

@@ -21,14 +21,27 @@ class SubCommands:
     """
 
     def __init__(self, parser: argparse.ArgumentParser) -> None:
+        self._program = parser.prog
         self._parsers: Any = parser.add_subparsers(
             dest="sub_command", required=True, metavar="SUB-COMMAND", parser_class=Parser
         )
 
-    def add(self, name: str, purpose: str, action: Action) -> argparse.ArgumentParser:
-        """Add a sub-command; returns its parser."""
+    def add(
+        self, name: str, purpose: str, action: Action, *examples: str
+    ) -> argparse.ArgumentParser:
+        """Add a sub-command; returns its parser.
+
+        Args:
+            name: Name as typed by the user.
+            purpose: One line for ``--help``.
+            action: Runs it.
+            *examples: Its arguments in the examples of ``--help``.
+        """
+        lines = "".join(f"\n  {self._program} {name} {each}".rstrip() for each in examples)
         made: argparse.ArgumentParser = self._parsers.add_parser(
-            name, help=purpose, description=purpose
+            name,
+            help=purpose,
+            description=f"{purpose[:1].upper()}{purpose[1:]}." + (lines and f"\n{lines}"),
         )
         made.set_defaults(action=action, parser=made)
         return made

@@ -4,7 +4,7 @@ gazelle topic list -v
 gazelle topic echo /scan -n 1 --noarr
 gazelle topic pub -r 10 /cmd_vel geometry_msgs/Twist '{linear: {x: 0.2}}'
 gazelle topic hz /scan
-"""
+"""  # this is the text of --help
 
 from __future__ import annotations
 
@@ -24,9 +24,14 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     commands = SubCommands(parser)
     _configure_list(commands)
-    for name, purpose in (("info", "type, publishers, subscribers"), ("type", "type of a topic")):
-        commands.add(name, purpose, _ONE[name]).add_argument("topic", metavar="/TOPIC")
-    commands.add("find", "topics of a type", _find).add_argument("type", metavar="PKG/TYPE")
+    for name, purpose in (
+        ("info", "show type, publishers and subscribers of a topic"),
+        ("type", "print the type of a topic"),
+    ):
+        commands.add(name, purpose, _ONE[name], "/scan").add_argument("topic", metavar="/TOPIC")
+    commands.add("find", "list the topics of a type", _find, "sensor_msgs/LaserScan").add_argument(
+        "type", metavar="PKG/TYPE"
+    )
     _configure_echo(commands)
     _configure_pub(commands)
     _configure_rates(commands)
@@ -39,25 +44,44 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _configure_list(commands: SubCommands) -> None:
-    parser = commands.add("list", "topics", _list)
+    parser = commands.add("list", "list topics", _list, "", "-v /robot")
     parser.add_argument("space", nargs="?", metavar="/NAMESPACE")
-    parser.add_argument("-v", "--verbose", action="store_true", help="types and numbers of nodes")
+    parser.add_argument(
+        "-v",
+        "--verbose",
+        action="store_true",
+        help="show types and numbers of publishers and subscribers",
+    )
     only = parser.add_mutually_exclusive_group()
-    only.add_argument("-p", "--publishers", action="store_true", help="only what is published")
-    only.add_argument("-s", "--subscribers", action="store_true", help="only what is subscribed to")
+    only.add_argument("-p", "--publishers", action="store_true", help="only topics with publishers")
+    only.add_argument(
+        "-s", "--subscribers", action="store_true", help="only topics with subscribers"
+    )
     parser.add_argument("--host", action="store_true", help="group by machine")
-    parser.add_argument("-b", "--bag", metavar="FILE", help="the topics of a bag")
+    parser.add_argument("-b", "--bag", metavar="FILE", help="list the topics of a bag")
 
 
 def _configure_echo(commands: SubCommands) -> None:
-    parser = commands.add("echo", "write messages as they come", _echo)
+    parser = commands.add(
+        "echo", "print messages", _echo, "/scan -n 1 --noarr", "/odom/pose/pose/position"
+    )
     parser.add_argument("topic", nargs="?", metavar="/TOPIC[/FIELD]")
-    parser.add_argument("-n", dest="count", type=positive_int, metavar="COUNT", help="so many")
-    parser.add_argument("-p", dest="plot", action="store_true", help="as comma-separated values")
-    parser.add_argument("-b", "--bag", metavar="FILE", help="from a bag")
-    parser.add_argument("-a", "--all", action="store_true", help="all topics of the bag")
-    parser.add_argument("-c", "--clear", action="store_true", help="clear the screen before each")
-    parser.add_argument("-w", dest="width", type=positive_int, help="characters of each number")
+    parser.add_argument(
+        "-n",
+        dest="count",
+        type=positive_int,
+        metavar="COUNT",
+        help="stop after this number of messages",
+    )
+    parser.add_argument("-p", dest="plot", action="store_true", help="print comma-separated values")
+    parser.add_argument("-b", "--bag", metavar="FILE", help="read from a bag")
+    parser.add_argument("-a", "--all", action="store_true", help="print all topics of the bag")
+    parser.add_argument(
+        "-c", "--clear", action="store_true", help="clear the screen before each message"
+    )
+    parser.add_argument(
+        "-w", dest="width", type=positive_int, help="width of numbers in characters"
+    )
     parser.add_argument("--filter", metavar="EXPR", help="a Python expression of the message m")
     parser.add_argument("--nostr", action="store_true", help="leave out strings")
     parser.add_argument("--noarr", action="store_true", help="leave out arrays")
@@ -65,35 +89,58 @@ def _configure_echo(commands: SubCommands) -> None:
 
 
 def _configure_pub(commands: SubCommands) -> None:
-    parser = commands.add("pub", "publish", _publish)
+    parser = commands.add(
+        "pub",
+        "publish messages",
+        _publish,
+        "-r 10 /cmd_vel geometry_msgs/Twist '{linear: {x: 0.2}}'",
+        "--once /name std_msgs/String hello",
+    )
     parser.add_argument("topic", metavar="/TOPIC")
     parser.add_argument("type", metavar="PKG/TYPE")
-    parser.add_argument("values", nargs="*", metavar="YAML", help="all fields, or one mapping")
-    how = parser.add_mutually_exclusive_group()
-    how.add_argument("-r", "--rate", type=positive_float, metavar="HZ", help="again and again")
-    how.add_argument("-1", "--once", action="store_true", help="one message, then end")
-    parser.add_argument("-f", "--file", metavar="FILE", help="messages from a YAML file")
-    parser.add_argument("-l", "--latch", action="store_true", help="keep for late subscribers")
-    parser.add_argument("-v", "--verbose", action="store_true", help="write the messages")
     parser.add_argument(
-        "-s", "--substitute-keywords", action="store_true", help="'now' and 'auto' in each message"
+        "values", nargs="*", metavar="YAML", help="values of all fields, or one mapping"
+    )
+    how = parser.add_mutually_exclusive_group()
+    how.add_argument(
+        "-r",
+        "--rate",
+        type=positive_float,
+        metavar="HZ",
+        help="publish repeatedly at this rate [Hz]",
+    )
+    how.add_argument("-1", "--once", action="store_true", help="publish one message and exit")
+    parser.add_argument("-f", "--file", metavar="FILE", help="read messages from a YAML file")
+    parser.add_argument(
+        "-l", "--latch", action="store_true", help="latch the message for late subscribers"
+    )
+    parser.add_argument("-v", "--verbose", action="store_true", help="print the messages")
+    parser.add_argument(
+        "-s",
+        "--substitute-keywords",
+        action="store_true",
+        help="replace 'now' and 'auto' in each message",
     )
     parser.add_argument("--use-rostime", action="store_true", help="stamp with simulated time")
 
 
 def _configure_rates(commands: SubCommands) -> None:
-    hertz = commands.add("hz", "messages per second", _hz)
+    hertz = commands.add("hz", "measure the rate of a topic", _hz, "/scan", "/scan /odom -w 100")
     hertz.add_argument("topics", nargs="+", metavar="/TOPIC")
     hertz.add_argument("--filter", metavar="EXPR", help="a Python expression of the message m")
-    hertz.add_argument("--wall-time", action="store_true", help="wall time, not simulated")
-    size = commands.add("bw", "bytes per second", _bw)
+    hertz.add_argument(
+        "--wall-time", action="store_true", help="use wall time instead of simulated time"
+    )
+    size = commands.add("bw", "measure the bandwidth of a topic", _bw, "/camera/image_raw")
     size.add_argument("topic", metavar="/TOPIC")
-    delay = commands.add("delay", "age of the stamps", _delay)
+    delay = commands.add("delay", "measure the delay since the stamps of messages", _delay, "/scan")
     delay.add_argument("topic", metavar="/TOPIC")
     for parser, default in ((hertz, -1), (size, 100), (delay, -1)):
-        parser.add_argument("-w", "--window", type=int, default=default, help="messages that count")
+        parser.add_argument(
+            "-w", "--window", type=int, default=default, help="number of messages to average over"
+        )
     for parser in (hertz, delay):
-        parser.add_argument("--tcpnodelay", action="store_true", help="ask for it")
+        parser.add_argument("--tcpnodelay", action="store_true", help="request TCP_NODELAY")
 
 
 def _graph() -> Any:
