@@ -1,4 +1,4 @@
-"""Gazelle: robot simulator and learning kit in one package.
+"""Robot simulation and reinforcement learning in one package.
 
 The names here are the ones to start with; each subpackage has its own::
 

@@ -1,4 +1,4 @@
-"""Simulations on a ROS 1 graph, and the controllers of a robot (``gazelle.bridges.control``)."""
+"""ROS 1 interface of simulations, and of robot controllers (``gazelle.bridges.control``)."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ __all__ = ["RosServer", "refuse_twin", "serve_ros"]
 
 
 def __getattr__(name: str) -> Any:
-    # A robot of one's own needs no simulation, which takes a while to be imported.
+    # Imported on first use: controllers of real robots need no simulation, which imports slowly.
     if name == "RosDoor":
         warnings.warn(DeprecationWarning("RosDoor is called RosServer now"), stacklevel=2)
         name = "RosServer"

@@ -1,7 +1,7 @@
-"""Worlds, robots' extras and sensors made by code.
+"""Builders of worlds, models and sensors from Python.
 
-Small functions give descriptions (models, lights, sensors, physics); ``WorldBuilder`` puts
-them together; ``office`` and ``outdoor`` are whole worlds. All run as they are.
+Functions return descriptions of models, lights, sensors and physics; ``WorldBuilder`` combines
+them; ``office`` and ``outdoor`` return complete worlds.
 """
 
 from gazelle.builders.controllers import ControlFiles, control_files

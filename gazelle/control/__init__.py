@@ -1,4 +1,4 @@
-"""Joint-level control as ros_control means it: hardware, controllers and their manager, without ROS."""
+"""Joint controllers as in ros_control: hardware interfaces, controllers and their manager, without ROS."""
 
 from pathlib import Path
 

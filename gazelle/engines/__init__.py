@@ -1,4 +1,4 @@
-"""Engines that move worlds: the ``Engine`` protocol and its implementations."""
+"""Physics engines: the ``Engine`` protocol and its implementations."""
 
 from __future__ import annotations
 

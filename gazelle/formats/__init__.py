@@ -1,4 +1,4 @@
-"""Files to descriptions: SDF, URDF, xacro, SRDF, maps, and the meshes they name."""
+"""Readers and writers of robot and world files: SDF, URDF, xacro, SRDF, maps and meshes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Geometry without robotics: polygons, hulls, surfaces, and meshes as convex pieces."""
+"""Computational geometry: polygons, hulls, surfaces, and meshes as convex pieces."""
 
 from __future__ import annotations
 

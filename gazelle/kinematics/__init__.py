@@ -1,7 +1,7 @@
-"""Robots as trees of joints: forward kinematics, Jacobians and inverse kinematics.
+"""Forward kinematics, Jacobians and inverse kinematics of trees of joints.
 
-`RobotModel` is one robot with its groups and variables; `InverseKinematics` finds positions of a
-group for a pose.
+`RobotModel` is a robot with its groups and variables; `InverseKinematics` finds joint positions
+of a group for a pose.
 """
 
 from __future__ import annotations

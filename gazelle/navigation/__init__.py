@@ -1,6 +1,6 @@
-"""Mobile robots: motions and control loops for many at once, and navigation to a goal for one.
+"""Navigation of mobile robots: motion control for many robots at once, and driving to a goal.
 
-All on plain numbers, with neither ROS nor learning; only ``GoToGoal`` knows the simulation.
+The modules work on arrays, without ROS; only ``GoToGoal`` uses the simulation.
 """
 
 from gazelle.navigation.agv import Limits, Motions, Outcome

@@ -1,6 +1,6 @@
-"""Arms: planning scenes, plans and trajectories, without ROS.
+"""Motion planning for arms: planning scenes, plans and trajectories, without ROS.
 
-``Group`` plans for a robot in a running simulation; all below it works on descriptions alone.
+``Group`` plans for a robot in a running simulation; all other classes work on descriptions.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Rendering of worlds: colour, depth and labels for many cameras at once, on the processor alone."""
+"""Rendering of worlds: colour, depth and labels for many cameras at once on the CPU."""
 
 from __future__ import annotations
 

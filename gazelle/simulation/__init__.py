@@ -1,4 +1,4 @@
-"""One running set of worlds: clock, lock, spawn and delete, sensors, plugins and ports."""
+"""Running simulations: clock, lock, spawning and deleting of models, sensors, plugins and ports."""
 
 from gazelle.engines import Placement
 from gazelle.simulation.base_plugin import BasePlugin

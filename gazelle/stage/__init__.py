@@ -1,6 +1,6 @@
-"""Stage: its files, and its worlds that run as fleets of robots in the plane.
+"""Stage worlds: readers of their files, and their simulation in the planar engine.
 
-Modules are imported when their names are used: a reader of files needs nothing that runs them.
+Modules are imported on first use, so that reading a file does not import the engine.
 """
 
 from __future__ import annotations

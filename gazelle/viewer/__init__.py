@@ -1,4 +1,4 @@
-"""Look instead of read: pictures and films of a simulation."""
+"""Pictures, videos and live views of simulations."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Controllers of robots on a ROS graph, as ros_control puts them there."""
+"""ROS interface of controllers: the topics, services and actions of ros_control."""
 
 from gazelle.bridges.control.binding import ManagerBinding
 from gazelle.bridges.control.hardware_loop import HardwareLoop

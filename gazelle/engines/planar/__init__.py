@@ -1,4 +1,4 @@
-"""The planar engine: worlds seen from above, kinematic, very fast."""
+"""The planar engine: fast kinematic simulation of worlds in two dimensions."""
 
 from __future__ import annotations
 

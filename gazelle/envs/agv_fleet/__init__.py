@@ -22,7 +22,7 @@ def parallel_env(**options: Any) -> AGVFleetParallelEnv:
 
     Raises:
         MissingExtraError: PettingZoo is not installed.
-        TaskError: An option cannot be.
+        TaskError: An option is invalid.
     """
     from gazelle.envs.agv_fleet.parallel import AGVFleetParallelEnv
 

@@ -1,1 +1,1 @@
-"""A TurtleBot3 finds a post of a colour by sight."""
+"""A task in which a TurtleBot3 finds a coloured post with its camera."""

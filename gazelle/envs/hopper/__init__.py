@@ -1,1 +1,1 @@
-"""The leg of openai_ros that shall stay up."""
+"""The hopper tasks of openai_ros: a one-legged robot that balances."""

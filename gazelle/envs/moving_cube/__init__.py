@@ -1,1 +1,1 @@
-"""The cube of openai_ros that a wheel inside moves."""
+"""The moving-cube task of openai_ros: a cube driven by a reaction wheel."""

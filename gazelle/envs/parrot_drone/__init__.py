@@ -1,1 +1,1 @@
-"""The quadrotor of openai_ros that flies to a place."""
+"""The quadrotor task of openai_ros: fly to a goal."""

@@ -1,1 +1,1 @@
-"""Arms of frobs_rl that reach for places."""
+"""The reach tasks of frobs_rl for robot arms."""

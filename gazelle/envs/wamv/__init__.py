@@ -1,1 +1,1 @@
-"""The catamaran of openai_ros that goes between buoys."""
+"""The catamaran task of openai_ros: drive between buoys."""

@@ -1,4 +1,4 @@
-"""Look through a description as an experienced engineer would, beyond what a reader must refuse."""
+"""Checks of descriptions for likely mistakes, beyond the errors that readers raise."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""SDF 1.4 to 1.12: one small reader an element."""
+"""SDF 1.4 to 1.12: one reader per element."""
 
 from gazelle.formats.sdf.root import read_sdf
 

@@ -1,4 +1,4 @@
-"""Descriptions to files: SDF and URDF."""
+"""Writers of SDF and URDF."""
 
 from gazelle.formats.write.save import save, to_string, write_text
 

@@ -1,4 +1,4 @@
-"""Costmaps: what it costs a robot to be somewhere, from maps, sensors and inflation.
+"""Costmaps from maps, sensors and inflation.
 
 The rules, costs and parameters are those of ROS's ``costmap_2d``.
 """

@@ -1,4 +1,4 @@
-"""State estimation from odometry, IMU, poses and GPS: the laws of ``robot_localization``."""
+"""State estimation from odometry, IMU, poses and GPS: the algorithms of ``robot_localization``."""
 
 from gazelle.navigation.estimation.control import ControlModel, StampedCommand
 from gazelle.navigation.estimation.kalman import Estimate, KalmanFilter, Measurement

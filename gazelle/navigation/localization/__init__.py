@@ -1,4 +1,4 @@
-"""Localisation on a map that is known: the law of ROS's ``amcl``."""
+"""Localization on a known map with the algorithm of ROS's ``amcl``."""
 
 from __future__ import annotations
 

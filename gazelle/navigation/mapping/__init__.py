@@ -1,4 +1,4 @@
-"""Maps made while driving (SLAM): the laws of ROS's ``gmapping``, ``slam_karto`` and ``hector_mapping``."""
+"""SLAM with the algorithms of ROS's ``gmapping``, ``slam_karto`` and ``hector_mapping``."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""To a goal and no further: the law of ROS's ``move_base``."""
+"""The state machine of ROS's ``move_base``: plan, control and recover until the goal is reached."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """Description of Stage's worlds, models and devices: SI units and radians.
 
-Recordings may hold whatever is named here; an entry point of the group ``gazelle.descriptions``
-says so.
+Recordings may contain the classes named here, through an entry point of the group
+``gazelle.descriptions``.
 """
 
 from gazelle.stage.description.contents import stage_model, stage_world

@@ -12,7 +12,7 @@ from gazelle.formats.reading import Reading
 from gazelle.formats.resolve import Resolver
 from gazelle.formats.world_formats import WorldFormat
 from gazelle.stage.description.models import StageWorld
-from gazelle.stage.format.building import no_garbage
+from gazelle.stage.format.building import gc_disabled
 from gazelle.stage.format.parser import script_of
 from gazelle.stage.format.scene import scene_of
 from gazelle.stage.format.world import read_world
@@ -53,13 +53,13 @@ def load_stage(
         paths: Folders to search before all others.
 
     Raises:
-        FormatError: The file cannot be read, or says something that cannot be; it names file
+        FormatError: The file cannot be read, or says something that is impossible; it names file
             and line.
         ResolveError: There is no such file, or one that it names is not there.
     """
     file = existing_file(path)
     reading = Reading(Resolver(paths, file=file))
-    with reading.inside(file), no_garbage():
+    with reading.inside(file), gc_disabled():
         script = script_of(str(file), xml.read_bytes(file), reading)
         world = read_world(script, reading, file.parent)
     reading.report(strict=False)
@@ -75,10 +75,10 @@ def read_stage(data: bytes, name: str, reading: Reading) -> World:
         reading: Finds what it names, takes remarks.
 
     Raises:
-        FormatError: The text says something that cannot be.
+        FormatError: The text says something that is impossible.
         ResolveError: A file that it names is not there.
     """
-    with no_garbage():
+    with gc_disabled():
         stage = read_world(script_of(name, data, reading), reading, reading.folder)
         return scene_of(stage, reading)
 

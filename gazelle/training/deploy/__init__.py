@@ -1,8 +1,8 @@
-"""Policies on ROS 1: a node without torch that drives a simulated or a real robot.
+"""Deployment of policies: a ROS 1 node without torch that drives a simulated or real robot.
 
-`DeployNode` is the node, `Pilot` decides without any ROS, and a guard, a process of its own, holds
-the topic of commands and stops the robot however the node ends. Nothing is imported until it is
-used: the guard starts quickly.
+`DeployNode` is the node and `Pilot` its ROS-free control loop. A separate guard process publishes
+the commands, and stops the robot when the node ends. Names are imported on first use, so that the
+guard starts quickly.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""A running ROS graph on a page: robots, frames, and messages of topics."""
+"""The web page of a ROS graph: displays of robots, frames and topics, and panels."""
 
 from gazelle.viewer.graph.view import GraphView
 

@@ -1,1 +1,1 @@
-"""The page in a browser: what it shows, and what can be done on it."""
+"""The web page of a simulation: 3D view, panels and tools."""

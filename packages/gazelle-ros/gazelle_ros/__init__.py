@@ -1,4 +1,4 @@
-"""ROS 1 without ROS: master, nodes, messages, exact on the wire; usable without a simulation.
+"""ROS 1 in pure Python: master, nodes, messages, bags and launch files, without a ROS installation.
 
 ::
 

@@ -1,4 +1,4 @@
-"""Descriptions as SDF: one small writer an element, the counterpart of the readers."""
+"""Writer of SDF: one function per element, the counterpart of the readers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Panels of the page of a graph: what rqt's plugins do."""
+"""Panels of the page of a ROS graph, such as those of rqt."""
 
 from gazelle.viewer.graph.panels.panel_set import PanelSet
 

@@ -1,4 +1,4 @@
-"""Nodes that come with Gazelle, in place of those of well-known ROS packages."""
+"""Built-in nodes that replace those of common ROS packages."""
 
 from gazelle_ros.builtin.package import BuiltinPackage
 from gazelle_ros.builtin.registry import register

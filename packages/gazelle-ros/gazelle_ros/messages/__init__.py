@@ -1,7 +1,7 @@
 """ROS 1 messages and services, generated at run time from their definitions.
 
-``load_message("std_msgs/String")`` gives a class that behaves as genpy's do; classes are made, and
-their code is compiled, when they are first used.
+``load_message("std_msgs/String")`` returns a class with the interface of genpy's; classes are
+generated and compiled on first use.
 """
 
 from gazelle_ros.messages.base import Message, ServiceDefinition

@@ -1,4 +1,4 @@
-"""rosbridge v2: a ROS 1 graph for programs that speak JSON or CBOR over WebSockets, with rosapi.
+"""rosbridge v2 and rosapi: a ROS 1 graph for JSON or CBOR clients over WebSockets.
 
 The protocol is that of rosbridge_suite (its ROSBRIDGE_PROTOCOL.md, of ROS 1).
 """

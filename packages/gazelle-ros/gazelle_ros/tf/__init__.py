@@ -1,4 +1,4 @@
-"""Coordinate frames over time: what tf2 does, without its server."""
+"""Coordinate frames over time, as in tf2."""
 
 from gazelle_ros.tf.core import FrameTree, StampedTransform
 from gazelle_ros.tf.errors import (

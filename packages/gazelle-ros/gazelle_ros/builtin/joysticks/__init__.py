@@ -1,1 +1,1 @@
-"""Joysticks of this machine, and what drives robots by them."""
+"""Joystick drivers, and nodes that turn joystick messages into commands."""

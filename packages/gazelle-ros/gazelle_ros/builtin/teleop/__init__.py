@@ -1,1 +1,1 @@
-"""Robots driven by keys in a terminal: the nodes of turtlebot3_teleop and teleop_twist_keyboard."""
+"""Keyboard teleoperation: the nodes of turtlebot3_teleop and teleop_twist_keyboard."""
