@@ -96,7 +96,7 @@ class Rollers(PluginSystem["Roller"]):
         super().__init__(plugins)
         linear, angular = np.zeros((2, len(plugins[0].command.linear), len(plugins), 3))
         for row, each in enumerate(plugins):
-            each.command.keep_in(linear[:, row], angular[:, row])
+            each.command.store_in(linear[:, row], angular[:, row])
         self._linear, self._angular = linear, angular
         self._wheels = JointArray([wheel for each in plugins for wheel in each.wheels])
 

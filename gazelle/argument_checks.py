@@ -91,7 +91,7 @@ def world_indices(worlds: Any, nworld: int, error: type[Error]) -> Worlds:
         error: Class of the error.
 
     Raises:
-        Error: There is no such world, or they are no ints; of the given class.
+        Error: There is no such world, or they are not ints; of the given class.
     """
     return indices("worlds", worlds, nworld, error)
 
@@ -106,7 +106,7 @@ def indices(what: str, selection: Any, count: int, error: type[Error]) -> Indice
         error: Class of the error.
 
     Raises:
-        Error: There is no such thing, or they are no ints; of the given class.
+        Error: There is no such thing, or they are not ints; of the given class.
     """
     rows: NDArray[Any] = np.zeros((0, 0))
     with contextlib.suppress(ValueError):  # of rows of different lengths
@@ -132,6 +132,15 @@ def _decorate_members(kind: type, checking: Callable[..., Any]) -> None:
 
 
 def _checking(function: Any, error: type[Error], most: float, *, first: bool, after: bool) -> Any:
+    """Return the function with a check of its arguments; see `checked`.
+
+    Args:
+        function: Function to wrap.
+        error: Raised for an invalid argument.
+        most: Largest magnitude of a number.
+        first: Whether to check before the call, rather than only when it fails.
+        after: Whether to turn Python's errors for wrong values into ``error``.
+    """
     parameters = inspect.signature(function).parameters
     passed = {"seed", "self"}
     if function.__name__ == "__init__":
@@ -160,10 +169,10 @@ def _checking(function: Any, error: type[Error], most: float, *, first: bool, af
 def _look_at(
     parameters: Mapping[str, inspect.Parameter], error: type[Error], most: float, passed: set[str]
 ) -> Callable[..., None]:
-    """Return what raises an error for an argument that cannot be.
+    """Return a function that raises an error if one of its arguments is invalid.
 
-    Some are passed over: a seed, which is any int, also one of 128 bits, the object of a method, and in
-    a constructor parameters that its settings check.
+    It skips ``passed``: a seed, which may have 128 bits, the object of a method, and parameters of a
+    constructor that its settings check.
     """
     order = [name for name, each in parameters.items() if each.kind != each.KEYWORD_ONLY]
     rules = {
@@ -302,7 +311,7 @@ def _row_of(kind: str) -> str | None:
 
 @functools.cache
 def _length(kind: str) -> int | None:
-    """Return the numbers in a value of an annotation; None where it is no vector."""
+    """Return the numbers in a value of an annotation; None where it is not a vector."""
     row = _ROW.fullmatch(kind)
     return _LENGTHS.get(kind) if row is None else len(row[1].split(","))
 

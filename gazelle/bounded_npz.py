@@ -78,4 +78,4 @@ def _refuse_damaged(file: IO[bytes], member: zipfile.ZipInfo) -> None:
     if dtype.kind == "U":  # numpy makes such texts, which then cannot be encoded
         points = np.frombuffer(file.read(), np.dtype("u4").newbyteorder(dtype.byteorder))
         if points.max(initial=0) > sys.maxunicode:
-            raise ValueError(f"'{member.filename}' has text that is no Unicode")
+            raise ValueError(f"'{member.filename}' has text that is not Unicode")

@@ -46,7 +46,7 @@ __all__ = [
 
 
 class EngineError(Error):
-    """A description cannot be simulated, or the simulation broke down."""
+    """A description cannot be simulated, or its simulation diverged."""
 
 
 class SimulationError(Error):

@@ -60,12 +60,12 @@ CHANGING = {
         *("set_properties", "set_velocity"),
     },
     SensorUnit: {
-        *("join", "leave", "reseed", "reset", "restore", "slow_to", "subscribe", "system"),
+        *("join", "leave", "reseed", "reset", "restore", "limit_rate", "subscribe", "system"),
         "update",
     },
-    TwistInput: {"bind", "clear", "keep_in", "send"},
+    TwistInput: {"bind", "clear", "store_in", "send"},
     Input: {"bind", "clear", "send"},
-    Output: {"bind", "forget", "hand", "publish", "subscribe"},
+    Output: {"bind", "forget", "publish", "publish_computed", "subscribe"},
     Service: {"bind", "call"},
     Tuning: {"bind", "send"},
 }

@@ -420,7 +420,7 @@ TABLE: dict[str, Callable[[Samples], Any]] = {
     "Prediction": lambda s: ExtendedPrediction(),
     "System": lambda s: planar.DriveVelocities(TABLE["Fleet"](s).bodies),
     "Clock": lambda s: s.stage.clock,
-    "MountedActuator": lambda s: s.stage.robot("r").riders[0],
+    "MountedActuator": lambda s: s.stage.robot("r").mounted_actuators[0],
     "Gripper": lambda s: s.stage.gripper("r"),
     "Actuator": lambda s: s.stage.actuator("r"),
     "MountedCamera": lambda s: stage.cameras_of(s.stage.robot("r"))[0],

@@ -17,7 +17,7 @@ import wrong_calls
 from wrong_calls import Findings
 from wrong_values import shown
 
-USED_BY = {"DeployNode": "close", "LiveView": "close", "SceneCamera": "look", "TopView": "look"}
+USED_BY = {"DeployNode": "close", "LiveView": "close", "SceneCamera": "render", "TopView": "render"}
 """Classes whose instances fail only when they are used, each with the method for that."""
 SMALL: dict[str, dict[str, Any]] = {
     **{key: {"size": (8, 6)} for key in ("SceneCamera", "TopView", "take_picture", "take_plan")},

@@ -85,5 +85,5 @@ def test_bytes_that_are_no_text_are_refused(text, reader):
 )
 def test_values_that_their_tag_does_not_allow(value, reader):
     read, error = READERS[reader]
-    with pytest.raises(error, match=r"is no value of the kind|no YAML|not YAML"):
+    with pytest.raises(error, match=r"is not a value of the kind|not valid YAML|not YAML"):
         read(f"data: {value}")

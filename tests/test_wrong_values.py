@@ -22,7 +22,7 @@ OWN = {
     "InitialPoses": {"apply", "forget", "restore"},
     "Robot": {"add_manager", "back_to", "bind", "mark"},
     "SensorUnit": {"join", "leave", "reading", "reseed", "reset", "restore", "update"},
-    "TwistInput": {"keep_in"},
+    "TwistInput": {"store_in"},
     "WorldParameters": {"reseed", "restore"},
 }
 ENDING = {"close", "pause", "unpause"}

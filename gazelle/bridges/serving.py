@@ -132,8 +132,8 @@ def refuse_twin(name: str, master_uri: str | None = None) -> None:
         if process is None:
             return
         raise RosError(
-            f"a simulator is on this graph already: {node}, process {process}",
-            hint="end it, or put another port into ROS_MASTER_URI, such as http://localhost:11312",
+            f"a simulator is already running on this graph: {node}, process {process}",
+            hint="stop it, or set another port in ROS_MASTER_URI, such as http://localhost:11312",
         )
 
 

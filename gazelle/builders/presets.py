@@ -55,7 +55,7 @@ def office(
         name: Of the world.
 
     Raises:
-        BuildError: There is no room for so many desks or boxes.
+        BuildError: There is no room for this number of desks or boxes.
     """
     if not 0 <= desks <= 8:
         raise BuildError(f"the office has room for 0 to 8 desks, not {desks}")

@@ -46,7 +46,9 @@ def building(
         BuildError: It is shorter than 3 m, or has no storey.
     """
     if min(length, width) < 3.0 or storeys < 1:
-        raise BuildError(f"a building of {length:g} m x {width:g} m with {storeys} storeys is none")
+        raise BuildError(
+            f"a building of {length:g} m x {width:g} m with {storeys} storeys is not possible"
+        )
     if 2.0 * (length + width) * storeys > MAX_PARTS:  # no less than a metre a window
         raise BuildError(
             f"a building of {length:g} m x {width:g} m with {storeys} storeys has too many windows",

@@ -27,7 +27,7 @@ def insert(text: str, nodes: Iterable[Parameters]) -> str:
     ends = list(_END.finditer(blanked))
     if not ends:
         raise BuildError(
-            "this is no URDF: there is no </robot>",
+            "this is not a URDF: there is no </robot>",
             hint="pass the text of the file, not its name" if "<" not in text else None,
         )
     start = ends[-1].start()
@@ -49,10 +49,10 @@ def root_of(text: str) -> Parameters:
 
     Raises:
         FormatError: The text is not well-formed XML.
-        BuildError: It is no URDF.
+        BuildError: It is not a URDF.
     """
     if "<" not in text:
-        raise BuildError("this is no URDF", hint="pass the text of the file, not its name")
+        raise BuildError("this is not a URDF", hint="pass the text of the file, not its name")
     root = xml.parse(text, name="urdf")
     if root.tag != "robot":
         raise BuildError(f"expected a <robot>, found <{root.tag}>")

@@ -169,7 +169,7 @@ class AGVFleet(Closeable):
                 if self._fault is not None:
                     raise ClientError(f"the AGVs cannot be moved: {self._fault}") from self._fault
                 if self._stop.is_set() or time.monotonic() - since > _PATIENCE_S:
-                    raise ClientError("no poses come any more")
+                    raise ClientError("no more poses are published")
             outcome, taken = self.motions.outcome[rows], self.motions.taken[rows].copy()
         for code, text in (
             (Outcome.TIMED_OUT, "did not get there in time"),

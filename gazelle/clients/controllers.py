@@ -169,7 +169,7 @@ class Controllers(Closeable):
             stopped: Load them only.
 
         Raises:
-            ClientError: One cannot be; what this call has loaded is unloaded again.
+            ClientError: One is invalid; what this call has loaded is unloaded again.
         """
         wanted, before = _several(names), self.states()
         loaded: list[str] = []
@@ -188,7 +188,7 @@ class Controllers(Closeable):
         """Stop those that run, and unload all, the last first.
 
         Raises:
-            ClientError: One cannot be; none is unloaded if one does not stop.
+            ClientError: One is invalid; none is unloaded if one does not stop.
         """
         wanted, before = _several(names), self.states()
         self.stop([name for name in wanted if before.get(name) == "running"])
@@ -237,7 +237,7 @@ class Controllers(Closeable):
 
     def _refused(self, service: str, name: str, why: str) -> ClientError:
         whom = f" '{name}'" if name else ""
-        return ClientError(f"{self._caller.namespace}/{service} refuses{whom}: {why}")
+        return ClientError(f"{self._caller.namespace}/{service} failed{whom}: {why}")
 
 
 def _several(names: Names) -> list[str]:

@@ -76,7 +76,7 @@ def load_parameters(
 
     Raises:
         ClientError: There is no such package or file, or it holds no names with values.
-        RosError: It is no YAML.
+        RosError: It is not valid YAML.
     """
     file = find_file(path, package)
     values = load_yaml(read_text(file))

@@ -14,8 +14,8 @@ from gazelle.clients.errors import ClientError
 from gazelle.clients.physics import PhysicsCalls, vector
 from gazelle.clients.poses import (
     ModelState,
+    SpawnOptions,
     Vector,
-    Where,
     pose_message,
     read_state,
     three,
@@ -110,7 +110,7 @@ class Gazebo(PhysicsCalls, Closeable):
 
     # -- models ------------------------------------------------------------------------------
 
-    def spawn_urdf(self, name: str, text: str, **where: Unpack[Where]) -> None:
+    def spawn_urdf(self, name: str, text: str, **where: Unpack[SpawnOptions]) -> None:
         """Spawn a robot; see ``spawn_sdf`` for where.
 
         Args:
@@ -130,13 +130,13 @@ class Gazebo(PhysicsCalls, Closeable):
         *,
         package: str | None = None,
         xacro_args: Mapping[str, str] | None = None,
-        **where: Unpack[Where],
+        **where: Unpack[SpawnOptions],
     ) -> None:
         """Spawn a robot of a URDF or xacro file; see ``read_urdf`` and ``spawn_sdf``."""
         self.spawn_urdf(name, read_urdf(path, package=package, xacro_args=xacro_args), **where)
 
     def spawn_urdf_parameter(
-        self, name: str, parameter: str = "robot_description", **where: Unpack[Where]
+        self, name: str, parameter: str = "robot_description", **where: Unpack[SpawnOptions]
     ) -> None:
         """Spawn a robot whose URDF a parameter holds; see ``spawn_sdf`` for where.
 
@@ -145,7 +145,7 @@ class Gazebo(PhysicsCalls, Closeable):
         """
         self.spawn_urdf(name, self._parameter(parameter), **where)
 
-    def spawn_sdf(self, name: str, text: str, **where: Unpack[Where]) -> None:
+    def spawn_sdf(self, name: str, text: str, **where: Unpack[SpawnOptions]) -> None:
         """Spawn a model or a light.
 
         Args:
@@ -160,12 +160,17 @@ class Gazebo(PhysicsCalls, Closeable):
         self._spawn("spawn_sdf_model", name, text, **where)
 
     def spawn_sdf_file(
-        self, name: str, path: str | Path, *, package: str | None = None, **where: Unpack[Where]
+        self,
+        name: str,
+        path: str | Path,
+        *,
+        package: str | None = None,
+        **where: Unpack[SpawnOptions],
     ) -> None:
         """Spawn a model of an SDF file; see ``spawn_sdf``."""
         self.spawn_sdf(name, read_text(find_file(path, package)), **where)
 
-    def spawn_sdf_parameter(self, name: str, parameter: str, **where: Unpack[Where]) -> None:
+    def spawn_sdf_parameter(self, name: str, parameter: str, **where: Unpack[SpawnOptions]) -> None:
         """Spawn a model whose SDF a parameter holds; see ``spawn_sdf`` for where.
 
         Raises:
@@ -336,7 +341,7 @@ class Gazebo(PhysicsCalls, Closeable):
         deadline = deadline_after(timeout)
         while name not in self.models:
             if time.monotonic() > deadline:
-                raise ClientError(f"the model '{name}' is not there after {timeout:g} s")
+                raise ClientError(f"the model '{name}' did not appear within {timeout:g} s")
             time.sleep(0.05)
 
     # -- the end -----------------------------------------------------------------------------

@@ -80,7 +80,7 @@ def _has_a_task(options: argparse.Namespace) -> bool:
 
 
 def _call(words: Sequence[str], duration: float | None) -> int:
-    """Run a command of ``gazelle``, no longer than so many seconds."""
+    """Run a command of ``gazelle``, for a limited time."""
     command = [sys.executable, "-m", "gazelle.cli.main", *words]
     with subprocess.Popen(command) as process:  # noqa: S603  # our own program
         try:

@@ -109,7 +109,7 @@ class SimulatorProcess(Closeable):
                 return _client(uri)
             except RosError:
                 if time.monotonic() > deadline:
-                    raise ClientError(f"the simulator is not there after {timeout:g} s") from None
+                    raise ClientError(f"the simulator did not start within {timeout:g} s") from None
                 time.sleep(_POLL_S)
 
     def _end(self) -> None:
@@ -142,6 +142,6 @@ def _refuse_another(uri: str) -> None:
     with contextlib.suppress(MasterUnreachableError), GraphInspector("clients", uri) as graph:
         if node_tools.alive(graph, "/gazebo"):
             raise ClientError(
-                "a simulator is on this graph already: /gazebo",
-                hint="end it, or give another master_uri",
+                "a simulator is already running on this graph: /gazebo",
+                hint="stop it, or set another master_uri",
             )

@@ -67,7 +67,7 @@ class JointCommander(Closeable):
         while not self._publisher.num_connections:
             if time.monotonic() > deadline:
                 raise ClientError(
-                    f"nobody listens to {self.topic} after {timeout:g} s",
+                    f"no subscriber on {self.topic} after {timeout:g} s",
                     hint="is the controller loaded?",
                 )
             time.sleep(_LOOK_S)

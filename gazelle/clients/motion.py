@@ -63,7 +63,7 @@ class Driver(Closeable):
             ClientError: No odometry was received yet; see ``wait``.
         """
         if self._state is None:
-            raise ClientError(f"nothing came on {self._pose_topic} yet", hint="call wait() first")
+            raise ClientError(f"no message yet on {self._pose_topic} ", hint="call wait() first")
         return self._state
 
     def wait(self, timeout: float = 10.0) -> Self:

@@ -92,7 +92,7 @@ class PerformanceWatch(Closeable):
             ClientError: Nothing was seen yet.
         """
         if not self.samples:
-            raise ClientError("nothing was seen yet", hint="watch for longer")
+            raise ClientError("no samples yet", hint="watch for longer")
         found = {}
         for name in _LABELS:
             values = [getattr(sample, name) for sample in self.samples]

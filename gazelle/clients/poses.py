@@ -46,8 +46,8 @@ class ModelPlace(TypedDict, total=False):
     frame: str
 
 
-class Where(ModelPlace, total=False):
-    """The same, and the ``namespace`` of its topics."""
+class SpawnOptions(ModelPlace, total=False):
+    """`ModelPlace` with the ``namespace`` of the topics of a spawned model."""
 
     namespace: str
 

@@ -128,7 +128,9 @@ class Processes:
         found = [each for each in self._launches if each.name == name]
         if not found:
             known = [each.name for each in self._launches]
-            raise ClientError(f"nothing called '{name}' runs", hint=did_you_mean(name, known))
+            raise ClientError(
+                f"no running process is called '{name}'", hint=did_you_mean(name, known)
+            )
         for each in found:
             each.close()
             self._launches.remove(each)
@@ -202,7 +204,7 @@ class _Running:
 
     def _watch(self) -> None:
         while not self._launch.ended.wait(_WATCH_S):
-            self._launch.look()
+            self._launch.poll()
 
 
 def _launch_text(attributes: Mapping[str, str], remaps: Mapping[str, str]) -> str:

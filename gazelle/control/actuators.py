@@ -46,7 +46,7 @@ def drive_of(transmission: Transmission) -> ActuatorDrive:
 
     Raises:
         ControlError: Its type is not known, it has too many or too few joints or actuators, roles
-            that cannot be, or a reduction of zero.
+            that is impossible, or a reduction of zero.
     """
     kind = transmission.type.removeprefix(_PREFIX)
     width = TRANSMISSION_WIDTHS.get(_PREFIX + kind)
@@ -152,7 +152,7 @@ class ActuatorStateInterface(HardwareInterface):
 
 
 class ActuatorHandles:
-    """Some actuators of a robot, in the order that a controller wants them.
+    """Some actuators of a robot, in the order of a controller.
 
     Args:
         names: Of the actuators.

@@ -54,7 +54,7 @@ class _Entry:
 def is_controllers(file: Path) -> bool:
     """Return whether a file is one of controllers: YAML with a ``type`` such as ``package/Class``.
 
-    What is no YAML is none.
+    What is not valid YAML is none.
     """
     if file.suffix.lower() not in (".yaml", ".yml") or not file.is_file():
         return False
@@ -78,9 +78,9 @@ def check_controllers(path: str | os.PathLike[str], robot: str | os.PathLike[str
         model = load_model(robot)
     except yaml.MarkedYAMLError as error:
         line = None if error.problem_mark is None else error.problem_mark.line + 1
-        return [Problem("error", f"this is no YAML: {error.problem}", file, line)]
+        return [Problem("error", f"this is not valid YAML: {error.problem}", file, line)]
     except yaml.YAMLError as error:
-        return [Problem("error", f"this is no YAML: {error}", file)]
+        return [Problem("error", f"this is not valid YAML: {error}", file)]
     except Error as error:
         return [Problem.of(error, os.fspath(robot))]
     return _Checker(file, model).check(root)

@@ -10,7 +10,7 @@ from gazelle.errors import ControlError
 
 
 def rows_of(what: str, commands: ArrayLike, width: int, count: int) -> Floats:
-    """Return numbers for so many worlds, shape (count, width).
+    """Return numbers for a given number of worlds, shape (count, width).
 
     NaN and infinity pass, as in ros_control's forwarding controllers.
 
@@ -21,7 +21,7 @@ def rows_of(what: str, commands: ArrayLike, width: int, count: int) -> Floats:
         count: Worlds.
 
     Raises:
-        ControlError: They are no numbers, or more or fewer.
+        ControlError: They are not numbers, or more or fewer.
     """
     try:
         values = np.asarray(commands, np.float64)

@@ -70,7 +70,7 @@ class ControllerSetup:
         hardware: Of its robot.
         model: The robot as its URDF describes it; None if unknown.
         call: Does work between two updates.
-        settle: Called before the time is looked at, as native code may update the controller.
+        sync: Called before the time is looked at, as native code may update the controller.
     """
 
     name: str
@@ -78,7 +78,7 @@ class ControllerSetup:
     hardware: RobotHardware
     model: Model | None
     call: Serializer
-    settle: Callable[[], None]
+    sync: Callable[[], None]
 
 
 class Controller:
@@ -107,7 +107,7 @@ class Controller:
         self.name, self.type = setup.name, setup.type
         self.hardware, self.nworld = setup.hardware, setup.hardware.nworld
         self._now_ns = 0
-        self._settle = setup.settle
+        self._sync = setup.sync
         self.running = False
         self.claimed: dict[str, tuple[str, ...]] = {}
         self.inputs: dict[str, CommandPort[Any]] = {}
@@ -120,7 +120,7 @@ class Controller:
     @property
     def now_ns(self) -> int:
         """Time of the last update [ns], kept by the manager."""
-        self._settle()
+        self._sync()
         return self._now_ns
 
     @now_ns.setter
@@ -133,7 +133,7 @@ class Controller:
         """Read the parameters, claim joints, open ports.
 
         Raises:
-            ControlError: It cannot be; nothing of it stays then.
+            ControlError: It is invalid; nothing of it stays then.
         """
 
     def starting(self, time: float) -> None:
@@ -163,7 +163,7 @@ class Controller:
         return math.inf
 
     @property
-    def patient(self) -> bool:
+    def deferrable(self) -> bool:
         """True if ``catch_up`` may be delayed until this controller is accessed."""
         return True
 
@@ -227,7 +227,7 @@ class Controller:
         """
         if self._setup.model is None:
             raise ControlError(
-                f"controller '{self.name}' needs the robot's URDF, and nobody knows it",
+                f"controller '{self.name}' needs the robot's URDF, which is not available",
                 hint="set the parameter robot_description",
             )
         known = {j.name: j for placed in self._setup.model.walk() for j in placed.model.joints}

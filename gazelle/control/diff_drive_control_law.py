@@ -17,7 +17,7 @@ from gazelle.control.interfaces import JointHandles
 
 @cython.cclass
 class DiffDriveControlLaw(BaseLaw):
-    """Turns both sides; the odometry goes by the mean of each.
+    """Turns both sides; the odometry uses the mean of each.
 
     Args:
         wheels: Those of the left side, then those of the right one.

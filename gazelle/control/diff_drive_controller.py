@@ -27,7 +27,7 @@ _TUNABLES = (
 
 
 class DiffDriveController(BaseController):
-    """Drives one or more wheels a side; the odometry goes by the mean of each side."""
+    """Drives one or more wheels a side; the odometry uses the mean of each side."""
 
     def init(self, parameters: ControllerParameters) -> None:
         """Read the wheels, their sizes and multipliers, and what all bases have."""

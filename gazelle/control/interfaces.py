@@ -160,7 +160,7 @@ class JointCommandInterface(HardwareInterface):
         wanted = COMMAND_FIELDS.get(name) if fields is None else fields
         if wanted is None:
             raise ControlError(
-                f"'{name}' is no interface of commands",
+                f"'{name}' is not an interface of commands",
                 hint=did_you_mean(name, COMMAND_FIELDS) or "say what its fields are",
             )
         self.commands = {field: np.zeros((nworld, len(self.resources))) for field in wanted}
@@ -175,7 +175,7 @@ class JointCommandInterface(HardwareInterface):
 
 @checked(ControlError, after=True)
 class JointHandles:
-    """Some joints of a robot, in the order that a controller wants them.
+    """Some joints of a robot, in the order of a controller.
 
     Args:
         names: Of the joints.

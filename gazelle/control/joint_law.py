@@ -197,7 +197,7 @@ class JointLaw:
 
     def push(self, world: int, i: int, effort: float) -> None:
         """Apply an effort, added to what acts already."""
-        safe = effort if isfinite(effort) else 0.0  # what is no number would end the world
+        safe = effort if isfinite(effort) else 0.0  # what is not a number would end the world
         if safe != self.applied[world, i]:
             self.applied[world, i], self.pushed[world, i] = safe, 1.0
 

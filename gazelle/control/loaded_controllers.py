@@ -74,9 +74,9 @@ class LoadedControllers(dict[str, LoadedController]):
         return soonest
 
     @property
-    def patient(self) -> bool:
+    def deferrable(self) -> bool:
         """True if ``catch_up`` of all running controllers may be delayed."""
-        return all(entry.controller.patient for entry in self.running)
+        return all(entry.controller.deferrable for entry in self.running)
 
     def catch_up(self, now_ns: int, updates: int, period: float) -> None:
         """Update the state after native updates; see ``ControllerManager.catch_up``."""

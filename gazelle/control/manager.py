@@ -52,7 +52,7 @@ class ControllerManager:
         namespace: Of the robot; before all topics that are relative.
         measure: Called before controllers start: reads the robot once more, and returns the time now
             [ns]. None for one that is read all the time; what was read last is true enough then.
-        settle: Called before the time is looked at, where native code updates controllers: calls
+        sync: Called before the time is looked at, where native code updates controllers: calls
             ``catch_up`` if anything is new.
 
     Attributes:
@@ -72,7 +72,7 @@ class ControllerManager:
         call: Serializer | None = None,
         namespace: str = "",
         measure: Callable[[], int] | None = None,
-        settle: Callable[[], None] = lambda: None,
+        sync: Callable[[], None] = lambda: None,
     ) -> None:
         self.hardware, self.model, self.namespace = hardware, model, namespace
         self.parameters: dict[str, Any] = dict(parameters or {})
@@ -82,7 +82,7 @@ class ControllerManager:
         self._loaded = LoadedControllers()
         self._watchers: list[tuple[Callable[[Controller], None], Callable[[Controller], None]]] = []
         self._switch: Switch | None = None
-        self._measure, self._settle = measure, settle
+        self._measure, self._sync = measure, sync
         self._now_ns = 0
 
     def _locked(self, work: Callable[[], R]) -> R:
@@ -100,7 +100,7 @@ class ControllerManager:
 
         Raises:
             ControlError: The name is taken, there is no type or none of that name, the robot lacks
-                an interface or a joint, or the parameters cannot be. Nothing stays behind.
+                an interface or a joint, or the parameters is invalid. Nothing stays behind.
         """
         return self.call(lambda: self._load(name, parameters))
 
@@ -135,7 +135,7 @@ class ControllerManager:
             The switch: done already, unless the robot needs time.
 
         Raises:
-            ControlError: It cannot be; nothing is changed.
+            ControlError: It is invalid; nothing is changed.
         """
         return self.call(
             lambda: self._begin_switch(
@@ -217,7 +217,7 @@ class ControllerManager:
     @property
     def now_ns(self) -> int:
         """Time of the last update [ns]."""
-        self._settle()
+        self._sync()
         return self._now_ns
 
     @now_ns.setter
@@ -248,9 +248,9 @@ class ControllerManager:
         return self._loaded.wake_ns()
 
     @property
-    def patient(self) -> bool:
-        """True if ``catch_up`` may be delayed until something is read; see ``Controller.patient``."""
-        return self._loaded.patient
+    def deferrable(self) -> bool:
+        """True if ``catch_up`` may be delayed until something is read; see ``Controller.deferrable``."""
+        return self._loaded.deferrable
 
     def catch_up(self, now_ns: int, updates: int, period: float) -> None:
         """Update the state after native updates.
@@ -291,7 +291,7 @@ class ControllerManager:
             )
         controller = registry.make(
             ControllerSetup(
-                name, parameters.text("type"), self.hardware, self.model, self.call, self._settle
+                name, parameters.text("type"), self.hardware, self.model, self.call, self._sync
             )
         )
         for interface in controller.interfaces:
@@ -348,7 +348,7 @@ class ControllerManager:
         asap: bool = False,
     ) -> Switch:
         if self._switch is not None:
-            raise ControlError("a switch is going on already")
+            raise ControlError("another controller switch is in progress")
         if strictness not in (Strictness.BEST_EFFORT, Strictness.STRICT):
             text = f"strictness {strictness} is not known; it is taken as BEST_EFFORT (1)"
             warnings.warn(ControlWarning(text), stacklevel=4)

@@ -14,7 +14,7 @@ from cython.cimports.libc.math import fabs
 
 from gazelle.array_types import Floats
 
-# Below so many seconds a velocity is not worth dividing by.
+# Minimum time step to divide by for a velocity [s].
 _SHORT = cython.declare(cython.double, 1e-4)
 
 # Below so much turning an arc is a straight line [rad].

@@ -99,7 +99,7 @@ class Pid:
         for each in gains:
             if not each.i_min <= each.i_max:
                 raise ControlError(
-                    f"the bounds of the integral are the wrong way round: {each.i_min}, {each.i_max}"
+                    f"the lower bound of the integral is above the upper: {each.i_min}, {each.i_max}"
                 )
         rows = np.array([(g.p, g.i, g.d, g.i_min, g.i_max) for g in gains], np.float64)
         p, i, d, least, most = np.ascontiguousarray(rows.reshape(-1, 5).T)

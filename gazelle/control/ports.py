@@ -27,7 +27,7 @@ def rows_of(worlds: Worlds | None, nworld: int) -> Worlds:
     """Return indices of worlds, shape (n,); of all if None.
 
     Raises:
-        ControlError: There is no such world, or they are no ints.
+        ControlError: There is no such world, or they are not ints.
     """
     return np.arange(nworld) if worlds is None else world_indices(worlds, nworld, ControlError)
 
@@ -75,7 +75,7 @@ class CommandPort(Generic[T]):
             worlds: Worlds; all if None.
 
         Raises:
-            ControlError: The controller refuses it: it does not run, or a value cannot be.
+            ControlError: The controller refuses it: it does not run, or a value is invalid.
         """
         self._call(lambda: self._receive(value, worlds))
 

@@ -97,6 +97,6 @@ def _own(name: str) -> type[Controller]:
 def _checked(found: object, name: str) -> type[Controller]:
     if not (isinstance(found, type) and issubclass(found, Controller)):
         raise ControlError(
-            f"'{name}' is no controller class", hint="subclass gazelle.control.Controller"
+            f"'{name}' is not a controller class", hint="subclass gazelle.control.Controller"
         )
     return found

@@ -125,7 +125,7 @@ def planned(
         strict: Whether a name that cannot be stopped or started is an error; else it is passed over.
 
     Raises:
-        ControlError: It cannot be.
+        ControlError: It is invalid.
     """
     stopping = _possible(loaded, stop, (), strict=strict, running=True)
     starting = _possible(loaded, start, stopping, strict=strict, running=False)

@@ -89,7 +89,7 @@ class JointTrajectoryController(Controller):
             part = parameters.part(f"gains/{name}")
             if "p" not in part:
                 raise ControlError(
-                    f"there are no gains '{part.place}/p', and without gains a trajectory is not followed",
+                    f"there are no gains '{part.place}/p', which a trajectory controller needs",
                     hint=f"set gains/{name}: {{p: ..., i: ..., d: ..., i_clamp: ...}}",
                 )
             gains.append(PidGains.read(part))
@@ -179,7 +179,7 @@ class JointTrajectoryController(Controller):
         return self._state_due.next_ns if self._state_port.has_subscribers else math.inf
 
     @property
-    def patient(self) -> bool:
+    def deferrable(self) -> bool:
         """Not while goals may end."""
         return not self._goals
 

@@ -28,7 +28,7 @@ class Collision:
         pose: In the link frame.
         surface: Friction, contact, bounce.
         laser_retro: Intensity that a lidar reports.
-        max_contacts: At most so many contact points with one other collision.
+        max_contacts: At most a given number of contact points with one other collision.
     """
 
     name: str

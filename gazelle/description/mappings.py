@@ -16,10 +16,10 @@ class HoldsMappings:
     def __reduce__(self) -> tuple[Any, ...]:
         """Return the class, and the values of its fields as Python can pickle them."""
         values = {each.name: getattr(self, each.name) for each in fields(self)}  # type: ignore[arg-type]  # a dataclass is
-        return _made_again, (type(self), {name: _plain(each) for name, each in values.items()})
+        return _rebuilt, (type(self), {name: _plain(each) for name, each in values.items()})
 
 
-def _made_again(kind: type[Any], values: dict[str, Any]) -> Any:
+def _rebuilt(kind: type[Any], values: dict[str, Any]) -> Any:
     return kind(**{name: _read_only(value) for name, value in values.items()})
 
 

@@ -54,7 +54,7 @@ class Physics:
             None for ``max_step_size``.
         real_time_factor: Simulated seconds a wall second to aim at.
         real_time_update_rate: Steps a wall second to aim at [Hz]; 0 means as fast as possible.
-        max_contacts: At most so many contact points between two collisions.
+        max_contacts: At most a given number of contact points between two collisions.
         ode: Solver terms; those of Bullet that ODE has too, where a file gives only Bullet's.
         auto_disable: Whether bodies at rest go to sleep; None leaves it to the engine.
         speculative_contacts: Whether contacts are looked for on the way of the coming step,

@@ -37,7 +37,7 @@ class Pose:
         yaw: Rotation about z [rad].
 
     Raises:
-        FormatError: One of them is no number, or an int beyond all floats.
+        FormatError: One of them is not a number, or an int beyond all floats.
     """
 
     __slots__ = ("_position", "_quaternion")
@@ -252,7 +252,7 @@ def rotate(q: Quaternion, v: Vector3) -> Vector3:
 def quaternion_from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
     """Return quaternion (x, y, z, w) of R = Rz(yaw) Ry(pitch) Rx(roll); angles in rad.
 
-    Of an angle that is not finite it is no number, which users of the pose reject.
+    Of an angle that is not finite it is not a number, which users of the pose reject.
     """
     if not (math.isfinite(roll) and math.isfinite(pitch) and math.isfinite(yaw)):
         return (math.nan, math.nan, math.nan, math.nan)

@@ -1,4 +1,4 @@
-"""Protocol of engines: hold many copies of one world, and move them.
+"""Protocol of physics engines, which simulate many copies of one world.
 
 All state is in arrays with a leading axis over worlds. ``worlds`` arguments name some
 of them by index, shape (n,), sorted and unique; None means all, n = nworld. Positions are in
@@ -150,7 +150,7 @@ class Engine(Protocol):
                 that is off.
 
         Raises:
-            EngineError: The joint has no axis that a motor could turn, or an effort cannot be.
+            EngineError: The joint has no axis that a motor could turn, or an effort is invalid.
         """
 
     def make_kinematic(self, model: str) -> None:
@@ -191,7 +191,7 @@ class Engine(Protocol):
         """Set a physical parameter, shape (width,) or (n, width); a reset does not undo it.
 
         Raises:
-            EngineError: There is no such parameter, or a value cannot be.
+            EngineError: There is no such parameter, or a value is invalid.
         """
 
     def update_world(self, world: World) -> None:
@@ -200,7 +200,7 @@ class Engine(Protocol):
         Every state stays as it is. Gravity that worlds have of their own is forgotten.
 
         Raises:
-            EngineError: A value cannot be; nothing is changed.
+            EngineError: A value is invalid; nothing is changed.
         """
 
     def range_kind(self, rays: RangeRays) -> Hashable | None:

@@ -36,11 +36,11 @@ MAX_VALUES = 1 << 28
 """Rays or pixels of one sensor in all worlds together."""
 
 
-def whole_number(what: str, value: Any, least: int = 1, most: int = MOST) -> int:
+def integer(what: str, value: Any, least: int = 1, most: int = MOST) -> int:
     """Return a valid number of worlds, threads or steps.
 
     Raises:
-        EngineError: It is no int, or too small or large.
+        EngineError: It is not an int, or too small or large.
     """
     try:
         number = operator.index(value)
@@ -55,7 +55,7 @@ def physics_step(step: Any) -> float:
     """Return a valid physics step [s].
 
     Raises:
-        EngineError: It is no number, not positive, or of no length that a clock could count.
+        EngineError: It is not a number, not positive, or of no length that a clock could count.
     """
     try:
         seconds = float(step)
@@ -78,7 +78,7 @@ def name_fault(name: Any) -> str | None:
     if "::" in name:
         return "'::' parts the names of models and links"
     if not can_be_written(name):
-        return "it holds what is no character"
+        return "it holds what is not a character"
     return None
 
 

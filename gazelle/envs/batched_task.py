@@ -1,4 +1,4 @@
-"""A task in many worlds at once: what the single and the vector environments wrap."""
+"""Base class of tasks over many worlds, wrapped by single and vector environments."""
 
 from __future__ import annotations
 
@@ -35,7 +35,9 @@ SCENARIO = "scenario"
 """In the info of a first moment: see `BatchedTask.scenario`."""
 
 
-@dataclass(slots=True)  # not frozen: it is made several times as fast, once a control step
+@dataclass(
+    slots=True
+)  # not frozen, as that makes creation several times faster, once per control step
 class Transition:
     """Result of one control step, all arrays with a leading axis over worlds.
 
@@ -132,7 +134,7 @@ class BatchedTask(ABC):
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Return the constructor's arguments and the state, for pickling."""
-        return _made_again, (type(self), *self._made_with), self.get_state()
+        return _rebuilt, (type(self), *self._made_with), self.get_state()
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Restore the state of a pickle or a copy."""
@@ -368,7 +370,7 @@ def _put(info: Info, start: Info, worlds: Worlds) -> Info:
     merged = dict(info)
     nworld = len(next(iter(info.values()))) if info else 0
     for name, values in start.items():
-        # What is known only at first, such as the scenario, is zero elsewhere.
+        # Info that only some worlds have, such as the scenario after a reset, is zero elsewhere.
         known = name in info
         whole = info[name].copy() if known else np.zeros((nworld, *values.shape[1:]), values.dtype)
         whole[worlds] = values
@@ -376,7 +378,7 @@ def _put(info: Info, start: Info, worlds: Worlds) -> Info:
     return merged
 
 
-def _made_again(
+def _rebuilt(
     kind: type[BatchedTask], arguments: tuple[Any, ...], options: dict[str, Any]
 ) -> BatchedTask:
     """Return a task as it was made."""

@@ -52,7 +52,7 @@ class CameraObservation:
         self._unit = robot.sensors[name]
         model = self._unit.model
         if not isinstance(model, CameraModel) or len(model.cameras) != 1:
-            raise TaskError(f"'{name}' is several cameras; a task looks through one")
+            raise TaskError(f"'{name}' has several cameras; the task needs one")
         camera = model.cameras[0]
         self.space = gym.spaces.Box(0, 255, (camera.height, camera.width, 3), np.uint8)
 
@@ -67,7 +67,7 @@ class CameraObservation:
 
 
 def fit_camera(model: Model, width: int, height: int) -> Model:
-    """Return the robot, its cameras with so many pixels; the horizontal field of view stays.
+    """Return the robot, its cameras with a given number of pixels; the horizontal field of view stays.
 
     Args:
         model: The robot.
@@ -79,7 +79,7 @@ def fit_camera(model: Model, width: int, height: int) -> Model:
     """
     if next(_cameras(model), None) is None:
         raise TaskError(
-            f"the robot '{model.name}' has no camera, and this task looks through one",
+            f"the robot '{model.name}' has no camera, which this task needs",
             source=model.source,
             hint="add a <sensor type='camera'>, or take turtlebot3_waffle_pi",
         )

@@ -59,7 +59,7 @@ class ObservationPart:
     high: float | tuple[float, ...] | None = None
     """Upper bound, likewise."""
     decimals: int | None = None
-    """Rounded to so many decimals, as Python's ``round`` does; None where it is not."""
+    """Rounded to a given number of decimals, as Python's ``round`` does; None where it is not."""
     meaning: str = ""
     """One sentence."""
 

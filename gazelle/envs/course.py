@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from gazelle.array_types import Floats32, Worlds
 from gazelle.envs.batched_task import BatchedTask
 from gazelle.envs.limits import MAX_COURSE_STEPS
-from gazelle.envs.options import check_whole
+from gazelle.envs.options import check_integer
 from gazelle.envs.wrappers import TaskWrapper
 from gazelle.errors import TaskError
 
@@ -19,7 +19,7 @@ from gazelle.errors import TaskError
 class CourseTask(TaskWrapper):
     """Shows behind each observation the course over the last steps, and what was done in them.
 
-    For each number of steps: the direction of the way from where the base was seen so many steps ago to where
+    For each number of steps: the direction of the way from where the base was seen a given number of steps ago to where
     it is seen now, an angle [rad] (0 while it is at the same place); and then for each number of steps and each
     action, the share of these steps in which it was taken. Nothing but what was observed and
     done goes into it. It starts again with every episode.
@@ -43,7 +43,7 @@ class CourseTask(TaskWrapper):
             if not 0 <= entry < space.shape[0]:
                 raise TaskError(f"there is no entry {entry} to take a course from")
         for count in steps:
-            check_whole("a number of steps of a course", count, 1, MAX_COURSE_STEPS)
+            check_integer("a number of steps of a course", count, 1, MAX_COURSE_STEPS)
         self._place, self._steps = [x, y], tuple(steps)
         self._start = int(actions.start)
         shares = len(self._steps) * int(actions.n)

@@ -1,4 +1,4 @@
-"""A task with goals in a simulation of its own: what was reached by chance is a goal as well."""
+"""Base class of goal-conditioned tasks in a simulation, with hindsight goals."""
 
 from __future__ import annotations
 
@@ -140,7 +140,7 @@ class GoalSimulationTask(SimulationTask):
         reward = np.asarray(self.compute_reward(achieved, desired, info), np.float64)
         if reward.shape != (self.nworld,):
             raise TaskError(
-                f"compute_reward gave an array of shape {reward.shape} for {self.nworld} goals",
+                f"compute_reward returned an array of shape {reward.shape} for {self.nworld} goals",
                 hint="sum over the last axis alone, as in norm(achieved - desired, axis=-1)",
             )
         return StepOutcome(reward, np.zeros(self.nworld, np.bool_), info)
@@ -178,6 +178,6 @@ class GoalSimulationTask(SimulationTask):
     def _check(self, method: str, found: Floats, shape: tuple[int, ...], space: str) -> None:
         if found.shape != shape:
             raise TaskError(
-                f"{method} gave an array of shape {found.shape}, and {space} wants {shape}",
-                hint="a row a world, an entry for each bound of the space",
+                f"{method} returned an array of shape {found.shape}, and {space} wants {shape}",
+                hint="expected a row per world, with an entry per bound of the space",
             )

@@ -88,7 +88,7 @@ def _first_lidar(model: Model) -> tuple[Sensor, Lidar]:
     sensor = next(_lidars(model), None)
     if sensor is None or sensor.lidar is None:
         raise TaskError(
-            f"the robot '{model.name}' has no lidar, and this task reads one",
+            f"the robot '{model.name}' has no lidar, which this task needs",
             source=model.source,
             hint="add a <sensor type='ray'>, or use another robot",
         )
@@ -102,7 +102,7 @@ def _rays_of(lidar: Lidar) -> int:
 def _check_shape(sensor: Sensor, lidar: Lidar, rays: int, samples: int) -> None:
     if lidar.vertical.samples != 1:
         raise TaskError(
-            f"the lidar '{sensor.name}' has {lidar.vertical.samples} rows, and this task reads one",
+            f"the lidar '{sensor.name}' has {lidar.vertical.samples} rows, and this task needs one",
             source=sensor.source,
             hint="set <vertical><samples> to 1",
         )

@@ -62,7 +62,7 @@ class TaskSettings:
         needs_forces: Whether what moves is pushed, so that the plane's engine cannot move it.
 
     Raises:
-        TaskError: A value cannot be.
+        TaskError: A value is invalid.
     """
 
     needs_forces: ClassVar[bool] = False
@@ -81,14 +81,16 @@ class TaskSettings:
             )
         if self.needs_forces and self.engine == "planar":
             hint = "leave the engine out, or choose mujoco"
-            raise TaskError("the engine planar knows no forces, which this task needs", hint=hint)
+            raise TaskError(
+                "the planar engine computes no forces, which this task needs", hint=hint
+            )
         if self.render_mode is not None:
             check_name("render mode", self.render_mode, RENDER_MODES)
         limits = (("seed", 0, None), ("max_episode_steps", 1, MAX_STEPS), ("threads", 1, None))
         for name, least, most in limits:
             value = getattr(self, name)
             if value is not None:
-                check_whole(name, value, least, most)
+                check_integer(name, value, least, most)
         if self.time_step is not None:
             _check_time_step(self.time_step)
 
@@ -145,7 +147,7 @@ class NavigationSettings(TaskSettings):
     def __post_init__(self) -> None:
         # A zero-argument super() does not work in a dataclass with slots.
         TaskSettings.__post_init__(self)
-        check_whole("lidar_samples", self.lidar_samples, 2, MAX_LIDAR_SAMPLES)
+        check_integer("lidar_samples", self.lidar_samples, 2, MAX_LIDAR_SAMPLES)
         if not isinstance(self.respawn, bool):
             raise TaskError(f"respawn must be True or False, not {self.respawn!r}")
         check_name("kind of starts", str(self.starts), SPLITS)
@@ -191,7 +193,7 @@ def check_name(kind: str, name: str, known: Iterable[str]) -> None:
         raise TaskError(f"there is no {kind} '{name}'", hint=did_you_mean(name, names))
 
 
-def check_whole(name: str, value: object, least: int, most: int | None = None) -> None:
+def check_integer(name: str, value: object, least: int, most: int | None = None) -> None:
     """Raise TaskError unless the value is an int that is not too small or too large."""
     try:
         number = operator.index(value)  # type: ignore[arg-type]  # that is what is tested
@@ -207,7 +209,7 @@ def checked_mapping(name: str, value: object) -> Mapping[str, Any]:
     """Return options by name; None are none.
 
     Raises:
-        TaskError: They are no mapping.
+        TaskError: They are not a mapping.
     """
     if value is None:
         return {}
@@ -220,7 +222,7 @@ def checked_seed(seed: object) -> int:
     """Return a seed.
 
     Raises:
-        TaskError: It is no int, or negative.
+        TaskError: It is not an int, or negative.
     """
     try:
         number = operator.index(seed)  # type: ignore[arg-type]  # that is what is tested

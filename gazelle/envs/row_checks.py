@@ -18,7 +18,7 @@ def action_array(actions: Any) -> NDArray[Any]:
     """Return actions as an array of numbers; their shape is for the task to check.
 
     Raises:
-        TaskError: They are no numbers, or in rows of different lengths.
+        TaskError: They are not numbers, or in rows of different lengths.
     """
     if type(actions) is np.ndarray and actions.dtype.kind in _NUMBERS:
         return actions
@@ -72,7 +72,7 @@ def checked_info(info: dict[str, Any], count: int) -> dict[str, NDArray[Any]]:
     """Return info as arrays, shape (count, ...).
 
     Raises:
-        TaskError: A value is no number or array of numbers for each world.
+        TaskError: A value is not a number or array of numbers for each world.
     """
     checked = dict(info)
     for name, values in info.items():

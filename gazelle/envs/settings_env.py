@@ -10,7 +10,7 @@ from gymnasium.vector import AutoresetMode
 
 from gazelle.envs.batched_task import BatchedTask
 from gazelle.envs.limits import MAX_ENVS
-from gazelle.envs.options import TaskSettings, check_whole, read_options
+from gazelle.envs.options import TaskSettings, check_integer, read_options
 from gazelle.envs.single_env import TaskEnv
 from gazelle.envs.vector_env import TaskVectorEnv
 
@@ -63,7 +63,7 @@ class SettingsVectorEnv(TaskVectorEnv):
         autoreset_mode: AutoresetMode | str = AutoresetMode.SAME_STEP,
         **options: Any,
     ) -> None:
-        check_whole("num_envs", num_envs, 1, MAX_ENVS)
+        check_integer("num_envs", num_envs, 1, MAX_ENVS)
         settings = read_options(self.settings_class, options)
         super().__init__(
             type(self).task_class(num_envs, settings),

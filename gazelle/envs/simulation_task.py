@@ -1,4 +1,4 @@
-"""A task in a simulation of its own: a subclass says what is seen, done, and what comes of it."""
+"""Base class of tasks in a simulation; a subclass defines observations, actions and rewards."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from gazelle.array_types import Bools, Floats, Floats32, Worlds
 from gazelle.description import World
 from gazelle.envs.batched_task import BatchedTask, Info, TaskOutcome
 from gazelle.envs.limits import MAX_DRAWS
-from gazelle.envs.options import TaskSettings, check_whole
+from gazelle.envs.options import TaskSettings, check_integer
 from gazelle.envs.row_checks import checked_observation
 from gazelle.errors import TaskError
 from gazelle.sensors import View, look_at
@@ -55,7 +55,7 @@ class SimulationTask(BatchedTask):
         max_episode_steps: Control steps until an episode is truncated; None for no limit.
 
     Raises:
-        TaskError: The control period is no multiple of the physics step.
+        TaskError: The control period is not a multiple of the physics step.
 
     Attributes:
         simulation: Simulation.
@@ -79,7 +79,7 @@ class SimulationTask(BatchedTask):
             or abs(round(control_period / step) * step - control_period) > _CLOSE
         ):
             raise TaskError(
-                f"control_period {control_period} s is no multiple of the step {step} s"
+                f"control_period {control_period} s is not a multiple of the step {step} s"
             )
         self.simulation = simulation
         self.control_period = control_period
@@ -109,9 +109,9 @@ class SimulationTask(BatchedTask):
         """Return random numbers for these worlds, shape (n, count): worlds are independent.
 
         Raises:
-            TaskError: There is no such world, or a number cannot be.
+            TaskError: There is no such world, or a number is invalid.
         """
-        check_whole("count", count, 0, MAX_DRAWS)
+        check_integer("count", count, 0, MAX_DRAWS)
         return low + (high - low) * self._stream.uniform(
             count, world_indices(worlds, self.nworld, TaskError)
         )

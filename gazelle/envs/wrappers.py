@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from gazelle.array_types import Floats, Floats32, Worlds
 from gazelle.envs.batched_task import SCENARIO, BatchedTask, Info, TaskOutcome
 from gazelle.envs.floor_plan import FloorPlan
-from gazelle.envs.options import check_whole
+from gazelle.envs.options import check_integer
 from gazelle.envs.single_env import TaskEnv
 from gazelle.envs.vector_env import TaskVectorEnv
 from gazelle.errors import TaskError
@@ -143,7 +143,7 @@ class FrameStackTask(TaskWrapper):
 
     def __init__(self, task: BatchedTask, count: int) -> None:
         super().__init__(task)
-        check_whole("count", count, 1)
+        check_integer("count", count, 1)
         space = task.observation_space
         low, high = np.tile(space.low.reshape(-1), count), np.tile(space.high.reshape(-1), count)
         self.observation_space = gym.spaces.Box(low, high, dtype=np.float32)
@@ -169,7 +169,7 @@ class FrameStackTask(TaskWrapper):
 class TimeAwareTask(TaskWrapper):
     """Shows at the end of each observation which share of the episode's time is over, 0 to 1.
 
-    Where an episode is cut off after so many steps, what it is worth depends on that (Pardo et al. 2018,
+    Where an episode is truncated after a number of steps, what it is worth depends on that (Pardo et al. 2018,
     arXiv 1712.00378).
 
     Args:
@@ -216,7 +216,7 @@ class ObservationDelayTask(TaskWrapper):
 
     def __init__(self, task: BatchedTask, steps: int) -> None:
         super().__init__(task)
-        check_whole("steps", steps, 0)
+        check_integer("steps", steps, 0)
         shape = (task.nworld, steps + 1, *task.observation_space.shape)
         self.memory["seen"] = np.zeros(shape, np.float32)
 
@@ -248,7 +248,7 @@ class ActionDelayTask(TaskWrapper):
 
     def __init__(self, task: BatchedTask, steps: int, idle: ArrayLike | None = None) -> None:
         super().__init__(task)
-        check_whole("steps", steps, 0)
+        check_integer("steps", steps, 0)
         self._idle = np.asarray(_still(task.action_space) if idle is None else idle)
         self._idle = self._idle.astype(task.action_space.dtype or np.float64)
         if not task.action_space.contains(_plain(task.action_space, self._idle)):
@@ -277,7 +277,7 @@ class ActionSmoothingTask(TaskWrapper):
         weight: Above 0 and up to 1, which changes nothing.
 
     Raises:
-        TaskError: Actions are no real numbers, or the weight cannot be.
+        TaskError: Actions are not real numbers, or the weight is invalid.
     """
 
     def __init__(self, task: BatchedTask, weight: float) -> None:
@@ -320,7 +320,7 @@ def wrapped(
     """
     inner = env.unwrapped
     if not isinstance(inner, TaskEnv | TaskVectorEnv):
-        raise TaskError(f"{inner} is no environment of a BatchedTask")
+        raise TaskError(f"{inner} is not an environment of a BatchedTask")
     spec, task = env.spec, inner.task
     if task.max_episode_steps is None and spec is not None:
         task.max_episode_steps = spec.max_episode_steps  # Gymnasium's TimeLimit knew it

@@ -52,7 +52,7 @@ def parse(data: bytes) -> list[Piece]:
             if triangles > MAX_TRIANGLES:
                 raise FormatError(
                     f"the scene has more than the limit of {MAX_TRIANGLES:,} triangles",
-                    hint="each counts as often as its node is put somewhere",
+                    hint="every instance of a node counts",
                 )
     return pieces
 
@@ -90,7 +90,7 @@ def _instances(
     if next(visits) > MAX_NODES:
         raise FormatError(
             f"the scene has more than the limit of {MAX_NODES:,} nodes",
-            hint="each counts as often as <instance_node> puts it somewhere",
+            hint="every <instance_node> counts",
         )
     if depth > MAX_DEPTH:
         raise FormatError(f"the scene has nodes nested more than {MAX_DEPTH} deep")

@@ -51,7 +51,7 @@ def read_srtm(path: Path) -> Floats:
     shape = _OBLONG if len(data) == 2 * math.prod(_OBLONG) else (side, side)
     if len(data) != 2 * math.prod(shape) or not side:
         raise FormatError(
-            f"{len(data)} bytes are no tile of elevations: expected two for each point of a square",
+            f"{len(data)} bytes are not a tile of elevations: expected two for each point of a square",
             file=str(path),
             hint="SRTM's tiles have 1201 x 1201 or 3601 x 3601 points",
         )
@@ -78,7 +78,7 @@ def read_ascii_grid(path: Path) -> Floats:
         values = np.array(words[first:], np.float64)
         missing = float(head.get("nodata_value", _MISSING))
     except ValueError as error:
-        raise FormatError(f"a value of the grid is no number: {error}", file=str(path)) from None
+        raise FormatError(f"a value of the grid is not a number: {error}", file=str(path)) from None
     return np.where(values == missing, np.nan, values).reshape(rows, columns)
 
 

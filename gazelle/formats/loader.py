@@ -1,4 +1,4 @@
-"""Files of any readable kind as worlds and models."""
+"""Loading of worlds and models from files of all readable formats."""
 
 from __future__ import annotations
 
@@ -101,7 +101,9 @@ def load_string(
         ResolveError: A file is not found, and ``strict`` is set.
     """
     if not isinstance(text, str | bytes):
-        raise FormatError(f"text is a string or bytes, not {text!r}", hint="load() reads files")
+        raise FormatError(
+            f"text must be a string or bytes, not {text!r}", hint="load() reads files"
+        )
     reading = _reading(paths, xacro_args)
     world = read_text(text, name, reading)
     reading.report(strict=strict)
@@ -192,7 +194,7 @@ def find_file(path: PathLike, reading: Reading, *, model: bool = False) -> Path:
     text = path_text(path)
     if "://" not in text:
         plain = expanded(text)
-        # Any folder here may be called "office": only that of a model hides what is bundled.
+        # A folder named like a bundled world hides it only if it holds a model.
         hidden = _is_other_folder(plain) and _bundled(text, reading.resolver, model=model)
         if plain.exists() and not hidden:
             return entry_file(plain.absolute())

@@ -38,7 +38,7 @@ def entry_file(path: Path) -> Path:
         raise FormatError("a model.config needs an <sdf> element", source=root.source)
     name = max(entries, key=_rank).text
     if not can_be_path(name):
-        raise FormatError("the <sdf> names what can be no file", source=root.source)
+        raise FormatError("the <sdf> element does not hold a valid file name", source=root.source)
     file = (path / name).resolve()
     if not file.is_relative_to(path.resolve()):
         raise FormatError("the <sdf> must name a file in its own folder", source=root.source)

@@ -184,7 +184,7 @@ class _Node:
         return self._number(self.text())
 
     def numbers(self, count: int) -> tuple[float, ...]:
-        """Return a list of so many finite numbers."""
+        """Return a list of a given number of finite numbers."""
         items = self.value.value
         if isinstance(items, str) or len(items) != count:
             raise self.fail(f"expected {count} numbers in '{self.key}', such as [0.0, 0.0, 0.0]")
@@ -236,9 +236,9 @@ def _parse(data: bytes, name: str) -> yaml.MappingNode:
         mark = getattr(error, "problem_mark", None)
         problem = getattr(error, "problem", None) or "it cannot be decoded"
         line = None if mark is None else mark.line + 1
-        raise FormatError(f"this is no valid YAML: {problem}", file=name, line=line) from None
+        raise FormatError(f"this is not valid YAML: {problem}", file=name, line=line) from None
     except (RecursionError, UnicodeError, ValueError):
-        raise FormatError("this is no valid YAML", file=name) from None
+        raise FormatError("this is not valid YAML", file=name) from None
     if not isinstance(root, yaml.MappingNode):
         raise FormatError("expected keys and values such as 'image: map.pgm'", file=name, line=1)
     return root

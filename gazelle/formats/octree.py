@@ -56,7 +56,7 @@ class Octree:
     def _leaves(self) -> Ints32:
         if not (math.isfinite(self.resolution) and self.resolution > 0.0):
             raise FormatError(
-                f"the resolution of an octree is a length above zero, not {self.resolution}"
+                f"the resolution of an octree must be a length above zero, not {self.resolution}"
             )
         if self.kind not in _RECORDS:
             raise FormatError(

@@ -33,7 +33,7 @@ def read_picture(path: Path) -> Bytes:
     Grey of 16 bits keeps its upper byte.
 
     Raises:
-        FormatError: The file cannot be read, is no picture, or larger than ``MAX_PIXELS``.
+        FormatError: The file cannot be read, is not a picture, or larger than ``MAX_PIXELS``.
     """
     return _read(path, _pixels)
 
@@ -50,7 +50,7 @@ def read_elevations(path: Path) -> Floats:
 def _read(path: Path, values_of: Callable[[Image], T]) -> T:
     import PIL.Image
 
-    _teach_doubles()
+    _register_double_tiff()
     refuse_special(path)
     try:
         with warnings.catch_warnings():
@@ -62,14 +62,14 @@ def _read(path: Path, values_of: Callable[[Image], T]) -> T:
         raise
     except PIL.UnidentifiedImageError:
         refuse_pointer_file(path)
-        raise FormatError("this is no picture that can be read", file=str(path)) from None
+        raise FormatError("this is not a picture that can be read", file=str(path)) from None
     except Exception as error:  # decoders raise anything on a broken file
         text = " ".join(str(error).split()) or type(error).__name__
         raise FormatError(f"the picture cannot be read: {text}", file=str(path)) from error
 
 
 @cache
-def _teach_doubles() -> None:
+def _register_double_tiff() -> None:
     """Register TIFF files of 64-bit numbers with Pillow, which can decode them."""
     from PIL.TiffImagePlugin import II, MM, OPEN_INFO
 

@@ -78,7 +78,7 @@ def read_root(file: Path, reading: Reading) -> Parameters:
     """Read the root element of an SRDF file, expanded if it uses xacro.
 
     Raises:
-        FormatError: The file is no XML, or no valid xacro.
+        FormatError: The file is not XML, or no valid xacro.
     """
     root = xml.read_file(file, reading.misread)
     return xacro.expand(file, reading) if xacro.is_xacro(root) else root

@@ -40,9 +40,9 @@ def parse(data: bytes) -> Triangles:
     if 0 < count <= room:
         return _weld(_binary(data, count))
     if len(data) <= _HEADER:
-        raise FormatError("this is no STL file", hint=_AGAIN)
+        raise FormatError("this is not an STL file", hint=_AGAIN)
     raise FormatError(
-        f"this is no STL file, or one that was cut short: its header says {count:,} triangles, "
+        f"this is not an STL file, or one that was cut short: its header says {count:,} triangles, "
         f"there are {room:,}",
         hint=_AGAIN,
     )

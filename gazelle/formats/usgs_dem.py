@@ -57,7 +57,7 @@ def read_usgs_dem(path: Path) -> Floats:
         raise FormatError(f"cannot read: {error.strerror}", file=str(path)) from error
     except (ValueError, IndexError) as error:
         raise FormatError(
-            f"this is no elevation model of the USGS, or it is damaged: {error}",
+            f"this is not an elevation model of the USGS, or it is damaged: {error}",
             file=str(path),
             hint="make a picture or a TIFF of it: gdal_translate FILE.dem FILE.tif",
         ) from None
@@ -121,9 +121,9 @@ def _real(text: str) -> float:
     """Return a number as Fortran writes it, ``0.3D+02``; NaN and infinities are rejected.
 
     Raises:
-        ValueError: It is no number.
+        ValueError: It is not a number.
     """
     value = float(text.upper().replace("D", "E"))
     if not np.isfinite(value):
-        raise ValueError(f"'{text.strip()}' is no number")
+        raise ValueError(f"'{text.strip()}' is not a number")
     return value

@@ -69,7 +69,7 @@ def numbered_lines(data: bytes) -> Iterator[tuple[int, str]]:
 def _wrong(number: int, line: str, why: str = "") -> FormatError:
     return FormatError(
         f"line {number} of the OBJ file is wrong: '{line.strip()}'{why}",
-        hint="mend the line, or export or download the file again",
+        hint="fix the line, or export the file again",
     )
 
 

@@ -142,7 +142,7 @@ def _instruction(work: _Mending, piece: str, at: int) -> None:
     if not piece.startswith("<?xml") or piece[5:6].isalnum() or piece[5:6] == "-":
         work.parts.append(piece)
     elif not _DECLARATION.fullmatch(piece):
-        work.put(piece, "\n" * piece.count("\n"), at, f"'{piece}' is no XML declaration")
+        work.put(piece, "\n" * piece.count("\n"), at, f"'{piece}' is not an XML declaration")
     elif "".join(work.parts).strip("\ufeff \t\r\n"):
         work.put(piece, "\n" * piece.count("\n"), at, "the XML declaration must come first")
     else:
@@ -182,7 +182,10 @@ def _tag(work: _Mending, piece: str, at: int) -> int:
 
 
 def _attributes(text: str) -> tuple[str, str] | None:
-    """Return well-formed attributes, and their fault; None where it is no list of attributes."""
+    """Return the repaired attributes of a tag and a message about the repair.
+
+    None if the text is not a list of attributes.
+    """
     inner = text.rstrip()
     inner = inner.removesuffix("/")
     parts, names, wrong, at = [], set(), "", 0

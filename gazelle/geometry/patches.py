@@ -110,7 +110,7 @@ def widths_of(surface: WeldedSurface, rims: Rims) -> Floats:
 
 
 def skin_of(surface: WeldedSurface) -> float:
-    """Return the thickness of what is open behind [m]."""
+    """Return the thickness assumed for surfaces that do not enclose a volume [m]."""
     return float(np.clip(0.01 * surface.size, *_SKIN))
 
 
@@ -159,7 +159,7 @@ def prism(rim: Floats, thickness: Floats) -> Solid:
 
 @lru_cache(maxsize=256)
 def _prism_faces(count: int) -> NDArray[np.int32]:
-    """Return triangles of a prism over so many corners, those of the other end after them."""
+    """Return triangles of a prism over a given number of corners, those of the other end after them."""
     here = np.arange(count, dtype=np.int32)
     after = np.roll(here, -1)
     fan = np.stack([np.zeros(count - 2, np.int32), here[1:-1], here[2:]], axis=1)

@@ -26,7 +26,7 @@ class PlanarPart:
         tag: A number that scanners report for what rays met.
 
     Raises:
-        EngineError: A number cannot be.
+        EngineError: A number is invalid.
     """
 
     points: tuple[Point, ...]

@@ -77,9 +77,9 @@ class InverseKinematics:
         seed: int = 0,
     ) -> None:
         if aim not in _WEIGHTS:
-            raise PlanningError(f"the aim is one of {', '.join(_WEIGHTS)}, not {aim!r}")
+            raise PlanningError(f"aim must be one of {', '.join(_WEIGHTS)}, not {aim!r}")
         if attempts < 1 or min(tolerance) <= 0.0:
-            raise PlanningError("inverse kinematics needs an attempt, and tolerances above zero")
+            raise PlanningError("attempts and tolerances must be above zero")
         self.robot, self.group = robot, group
         self.link = group.tip if link is None else link
         self._weights, self._tolerance = np.array(_WEIGHTS[aim]), tolerance

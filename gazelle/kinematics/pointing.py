@@ -46,7 +46,7 @@ class Pointing:
         length = math.hypot(*axis) if len(axis) == 3 and joints else 0.0
         if not length > 0.0:
             raise PlanningError(
-                "pointing needs a joint or more, and an axis of three numbers with a length"
+                "pointing needs at least one joint and a non-zero axis of three numbers"
             )
         self._robot, self._link = robot, robot.link(link).name
         self._axis = np.asarray(axis, float) / length

@@ -52,7 +52,7 @@ class RobotModel:
         nodes: The joints that the variables move, parents first, one for each variable.
 
     Raises:
-        PlanningError: The robot is no tree with one root.
+        PlanningError: The robot is not a tree with one root.
     """
 
     def __init__(

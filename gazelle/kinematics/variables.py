@@ -62,12 +62,13 @@ class JointBounds:
             joint: For messages.
 
         Raises:
-            PlanningError: A value is no number, or a name is unknown.
+            PlanningError: A value is not a number, or a name is unknown.
         """
         for name in entry:
             if name not in _PARAMETERS:
                 raise PlanningError(
-                    f"'{name}' of joint '{joint}' is no limit", hint=did_you_mean(name, _PARAMETERS)
+                    f"'{name}' of joint '{joint}' is not a limit",
+                    hint=did_you_mean(name, _PARAMETERS),
                 )
         made = self
         position = entry.get("has_position_limits", "min_position" in entry)
@@ -131,5 +132,5 @@ def _number(entry: Mapping[str, Any], name: str, default: float, joint: str) -> 
     value = entry.get(name, default)
     number = real(value)
     if number is None or math.isnan(number):
-        raise PlanningError(f"'{name}' of joint '{joint}' is a number, not {value!r:.60}")
+        raise PlanningError(f"'{name}' of joint '{joint}' must be a number, not {value!r:.60}")
     return number

@@ -15,7 +15,7 @@ from gazelle.array_types import Floats, Ints32
 # What extends further is endless, as planes are.
 _FAR = cython.declare(cython.double, 1e9)
 
-# From so many levels on parts have equal numbers: boxes that lie within each other could be split
+# From this number of levels on parts have equal numbers: boxes that lie within each other could be split
 # off one by one.
 _DEEP = cython.declare(cython.int, 48)
 
@@ -48,7 +48,7 @@ class BoxTree:
     def __init__(self, boxes: Floats) -> None:
         size = len(boxes)
         if size < 1:
-            raise ValueError("a tree has a box or more")
+            raise ValueError("a box tree needs at least one box")
         self._boxes = np.array(boxes, np.float64, order="C")
         # By their centres along each axis; within a node they remain in this order.
         orders = np.argsort(boxes[:, :3], axis=0, kind="stable")

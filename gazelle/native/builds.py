@@ -32,7 +32,7 @@ def _chosen() -> str:
     """
     forced = os.environ.get("GAZELLE_NATIVE", "")
     if forced and forced not in BUILDS:
-        raise EngineError(f"GAZELLE_NATIVE is one of {', '.join(BUILDS)}, not {forced!r}")
+        raise EngineError(f"GAZELLE_NATIVE must be one of {', '.join(BUILDS)}, not {forced!r}")
     if forced:
         _require(forced)
         return forced

@@ -106,11 +106,11 @@ class FairLock:
     ) -> None:
         self._drop()
 
-    def is_mine(self) -> bool:
+    def is_owner(self) -> bool:
         """Return whether the calling thread holds it."""
         return bool(self.owner == get_ident())
 
-    def lend(self) -> None:
+    def yield_lock(self) -> None:
         """Release the lock to the waiting threads, and acquire it again after them.
 
         A thread that holds it more than once keeps it.

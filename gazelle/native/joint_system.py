@@ -27,7 +27,7 @@ class JointSystem(System):
     """Reads joints at the start of a step, and sets what acts on them in it.
 
     An engine that takes it into its steps (``bind``) calls ``exchange``, which lets it see joints where
-    the engine has them; else a caller fills ``position_in`` and ``velocity_in``, calls ``bring``, and
+    the engine has them; else a caller fills ``position_in`` and ``velocity_in``, calls ``update_from_python``, and
     acts on what came out. A row is a world. Subclasses override ``advance``.
 
     Args:

@@ -83,7 +83,7 @@ class SystemLoop:
             raise ValueError(f"there are {nworld} worlds and steps of {step} ns")
         self.systems = list(systems)
         if not all(isinstance(each, System) for each in self.systems):
-            raise TypeError("a loop is of objects of System")
+            raise TypeError("a SystemLoop takes System objects")
         self.nworld, self.step, self.time, self._pool = nworld, step, time, pool
         size = 1 if pool is None or not cython.compiled else pool.size
         acts = acts or [BETWEEN] * len(self.systems)
@@ -135,7 +135,7 @@ class SystemLoop:
 
         Args:
             until: Simulated time [ns].
-            advance: Makes so many steps, at whose beginning or end systems are due, and not between.
+            advance: Makes a given number of steps, at whose beginning or end systems are due, and not between.
         """
         row: cython.Py_ssize_t = self._due.shape[0] - 1
         index: cython.Py_ssize_t
@@ -165,7 +165,7 @@ class SystemLoop:
                 system.due = self._due[row, index]
 
     def shared(self) -> tuple[int, int, int, int, int]:
-        """Return what an engine's steps go by: how many systems there are, and four addresses.
+        """Return the number of systems and four addresses, for an engine's native step loop.
 
         They are those of the table, of the rates [Hz], of when systems are due [ns], and of the time at
         which the steps end that are made at once [ns].

@@ -136,7 +136,7 @@ class PosePath(PathSystem):
         )
 
     def turn(self, world: int, elapsed: float) -> None:
-        """Write the pose of an even turn."""
+        """Write the pose after a rotation at constant angular velocity."""
         x, y, z = self.spin[0], self.spin[1], self.spin[2]
         rate = sqrt(x * x + y * y + z * z)
         half = rate * elapsed / 2.0

@@ -1,7 +1,7 @@
 cimport cython
 
 
-cdef class CarriedRays:
+cdef class FrameRays:
     cdef readonly object start, along, distance, normal, geom, passed, inside
     cdef const double[:, :, ::1] carried, pointed
     cdef double[:, :, ::1] starts, alongs

@@ -15,8 +15,8 @@ INF = cython.declare(cython.double, float("inf"))
 
 
 @cython.cclass
-class CarriedRays:
-    """Rays that frames carry in some worlds, and what they meet.
+class FrameRays:
+    """Rays fixed to frames, in some worlds, and their hits.
 
     Args:
         origins: In the frames [m], shape (frames, rays, 3).

@@ -59,7 +59,7 @@ class System:
         self.steady = self.mergeable = False
         self.uses: Any = None
 
-    def bring(self, first: int, last: int, time: int) -> None:
+    def update_from_python(self, first: int, last: int, time: int) -> None:
         """Call ``update`` from Python; other threads run meanwhile."""
         begin: cython.Py_ssize_t = first
         end: cython.Py_ssize_t = last

@@ -107,12 +107,16 @@ class WorkerPool:
         """
         rows = nworld * system.rows
         if self.size < 2 or rows < 2 * system.least:
-            system.bring(0, rows, time)
+            system.update_from_python(0, rows, time)
         else:
-            self.share(lambda first, last, _: system.bring(first, last, time), rows, system.least)
+            self.share(
+                lambda first, last, _: system.update_from_python(first, last, time),
+                rows,
+                system.least,
+            )
 
     def call(self, work: Callable[[int], Any], parts: int) -> list[Any]:
-        """Call ``work(part)`` for at most so many parts at once, at least one; what they return.
+        """Call ``work(part)`` for at most a given number of parts at once, at least one; what they return.
 
         Args:
             work: Called by several threads, each with a number of its own from 0 on.
@@ -132,7 +136,7 @@ class WorkerPool:
             return [first, *(_value(*outcome) for outcome in others)]
 
     def _ready(self, count: int) -> list[_Worker]:
-        """Return so many threads, started if necessary."""
+        """Return a given number of threads, started if necessary."""
         while len(self._workers) < count:
             self._workers.append(_Worker(f"worker_{len(self._workers)}"))
         return self._workers[:count]

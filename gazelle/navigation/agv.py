@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Indices
-from gazelle.engines.limits import MAX_WORLDS, whole_number
+from gazelle.engines.limits import MAX_WORLDS, integer
 from gazelle.errors import ControlError
 from gazelle.navigation.pid import BoundedPid
 
@@ -82,7 +82,7 @@ class Motions:
     """
 
     def __init__(self, count: int = 1, limits: Limits | None = None) -> None:
-        self.count = whole_number("the number of robots", count, least=0, most=MAX_WORLDS)
+        self.count = integer("the number of robots", count, least=0, most=MAX_WORLDS)
         self.limits = limits or Limits()
         self.outcome = np.full(count, Outcome.IDLE, np.int8)
         self.taken = np.zeros(count)
@@ -255,7 +255,7 @@ class Motions:
             if not np.isfinite(np.asarray(value, np.float64)).all():
                 raise ControlError(f"a motion needs finite numbers, not {value!r}")
         if not timeout > 0.0:
-            raise ControlError(f"a motion needs time; the timeout is {timeout} s")
+            raise ControlError(f"the timeout of a motion must be positive, not {timeout} s")
         self.outcome[rows], self.taken[rows] = Outcome.MOVING, 0.0
         self._limit[rows], self._start[rows], self._turned[rows] = timeout, math.nan, math.nan
         self._pid.reset(rows)
@@ -266,7 +266,7 @@ class Motions:
             return np.arange(self.count)
         rows = np.atleast_1d(np.asarray(robots, np.intp))
         if rows.size and (rows.min() < 0 or rows.max() >= self.count):
-            raise ControlError(f"robots are 0 to {self.count - 1}, not {robots!r}")
+            raise ControlError(f"robots must be 0 to {self.count - 1}, not {robots!r}")
         return rows
 
 

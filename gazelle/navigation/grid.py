@@ -153,7 +153,7 @@ def dilate(mask: Bools, radius: float) -> Bools:
 
 
 def _widened(mask: Bools, half: int) -> Bools:
-    """Return a mask grown by so many cells along its rows, to both sides."""
+    """Return a mask grown by a given number of cells along its rows, to both sides."""
     rows = mask.shape[1]
     sums = np.zeros((mask.shape[0], rows + 1), np.intp)
     np.cumsum(mask, axis=1, out=sums[:, 1:])

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
-from gazelle.engines.limits import MAX_WORLDS, whole_number
+from gazelle.engines.limits import MAX_WORLDS, integer
 from gazelle.errors import ControlError
 
 Rows = NDArray[np.intp] | slice
@@ -46,10 +46,8 @@ class BoundedPid:
     ) -> None:
         for name, (low, high) in (("integral", integral), ("output", output)):
             if not low <= high:
-                raise ControlError(
-                    f"the bounds of the {name} are the wrong way round: {low}, {high}"
-                )
-        whole_number("the number of loops", count, least=0, most=MAX_WORLDS)
+                raise ControlError(f"the bounds of the {name} are reversed: {low}, {high}")
+        integer("the number of loops", count, least=0, most=MAX_WORLDS)
         self.p, self.i, self.d = p, i, d
         self.integral, self.output = integral, output
         self._sum = np.zeros(count)
@@ -70,7 +68,7 @@ class BoundedPid:
             ControlError: ``dt`` is negative or not finite.
         """
         if not 0.0 <= dt < math.inf:
-            raise ControlError(f"time cannot go by {dt} s")
+            raise ControlError(f"dt must be positive, not {dt} s")
         which = slice(None) if rows is None else rows
         last = self._last[which]
         now = np.broadcast_to(np.asarray(error, np.float64), last.shape)

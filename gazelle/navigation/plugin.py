@@ -64,7 +64,7 @@ class GoToGoal(ModelPlugin):
         self._shown = -1
         namespace = namespace_of(robot, parameters)
         goal = absolute(namespace, parameters.get("goalTopic", "move_base_simple/goal"))
-        robot.inputs["goal"] = Input(goal, GoalPose, self.seek, forget=self._forget)
+        robot.inputs["goal"] = Input(goal, GoalPose, self.set_goal, forget=self._forget)
         path = absolute(namespace, parameters.get("pathTopic", "path"))
         robot.outputs["path"] = self._path = Output(path, Path, self._read_path)
 
@@ -79,7 +79,7 @@ class GoToGoal(ModelPlugin):
         seekers = (self._seekers.get(world) for world in range(self._nworld))
         return np.array([seeker is not None and seeker.arrived for seeker in seekers])
 
-    def seek(self, goal: GoalPose, worlds: Worlds | None = None) -> None:
+    def set_goal(self, goal: GoalPose, worlds: Worlds | None = None) -> None:
         """Set a goal.
 
         Args:
@@ -109,7 +109,7 @@ class GoToGoal(ModelPlugin):
             )
             return
         for world in self._chosen(worlds):
-            self._seeker(world).seek(numbers)
+            self._seeker(world).set_goal(numbers)
         if self._sleep is None:
             self._sleep = self._unit.subscribe(self._receive_scan)
 
@@ -125,7 +125,7 @@ class GoToGoal(ModelPlugin):
                 command.send(forward, turning, np.array([world]))
         self._show(time)
         if not self.active:
-            self._fall_asleep()
+            self._disable_laser()
 
     def _show(self, time: float) -> None:
         """Publish the path when it is new or has got old."""
@@ -137,7 +137,7 @@ class GoToGoal(ModelPlugin):
     def _receive_scan(self, unit: SensorUnit) -> None:
         self._scan = unit.reading(unit.current())
 
-    def _fall_asleep(self) -> None:
+    def _disable_laser(self) -> None:
         """Disable the laser while there is no goal."""
         if self._sleep is not None:
             self._sleep()
@@ -210,7 +210,7 @@ class GoToGoal(ModelPlugin):
         self._forget(worlds)
         self._shown_at = -math.inf
         if not self.active:
-            self._fall_asleep()
+            self._disable_laser()
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
         """Return goals, maps and paths of the worlds that had a goal."""
@@ -234,7 +234,7 @@ class GoToGoal(ModelPlugin):
                 parts.setdefault(int(world), {})[part] = values
         for number, held in parts.items():
             self._seeker(number).restore(held)
-        self._fall_asleep()
+        self._disable_laser()
         if "ranges" in state:
             ranges = np.array(state["ranges"], np.float64)
             self._scan = self._unit.model.reading(ranges, int(state["stamp"]))

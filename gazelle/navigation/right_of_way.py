@@ -212,7 +212,7 @@ class RightOfWay:
     # Waiting relations -------------------------------------------------------------------
 
     def _meet(
-        self, time: float, free: Sequence[NavigatingRobot], everyone: Sequence[NavigatingRobot]
+        self, time: float, free: Sequence[NavigatingRobot], robots: Sequence[NavigatingRobot]
     ) -> None:
         """Resume the first robot of a group that blocks itself."""
         standing = [each for each in free if self._stands(time, each)]
@@ -227,8 +227,7 @@ class RightOfWay:
         for group in groups:
             members = [each for each in standing if each.name in group]
             if len(members) > 1 and not any(
-                self._begin(time, leader, paths[leader.name], members, everyone)
-                for leader in members
+                self._begin(time, leader, paths[leader.name], members, robots) for leader in members
             ):
                 for each in members:
                     self._watches[each.name].since += _RETRY
@@ -245,7 +244,7 @@ class RightOfWay:
         leader: NavigatingRobot,
         path: Floats,
         members: Sequence[NavigatingRobot],
-        everyone: Sequence[NavigatingRobot],
+        robots: Sequence[NavigatingRobot],
     ) -> bool:
         """Start an encounter: others yield to one, if there is room."""
         reached = {each.name: _blocks(each, leader, path) for each in members}
@@ -256,7 +255,7 @@ class RightOfWay:
         )
         along = np.append(0.0, np.hypot(*np.diff(path, axis=0).T).cumsum())
         moving = {leader.name, *(each.name for each in obstructing)}
-        fixed = [e.body for e in everyone if e.name not in moving and e.body is not None]
+        fixed = [e.body for e in robots if e.name not in moving and e.body is not None]
         waiting = self._steps_aside(leader, path, along, obstructing, fixed)
         if not waiting:
             return False

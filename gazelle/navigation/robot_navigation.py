@@ -61,7 +61,7 @@ class RobotNavigation(ModelPlugin):
             )
         if robot.inputs["cmd_vel"].steers:
             raise SimulationError(
-                f"'{robot.name}' is steered like a car, which no planner here can do",
+                f"'{robot.name}' has Ackermann steering, which no planner here supports",
                 source=robot.description.source,
                 hint="use a drive that can turn on the spot, 'diff' or 'omni'",
             )
@@ -107,12 +107,12 @@ class RobotNavigation(ModelPlugin):
         """
         if localization not in _SOURCES:
             raise SimulationError(
-                f"a robot is localised by truth, amcl or slam, not '{localization}'",
+                f"localization must be truth, amcl or slam, not '{localization}'",
                 hint=did_you_mean(localization, _SOURCES),
             )
         if localization == "slam" and grid is not None:
             raise SimulationError(
-                "a robot that makes its map is given none", hint="leave out 'grid'"
+                "a robot with localization='slam' takes no map", hint="leave out 'grid'"
             )
         values = merged(USUAL, parameters or {})
         navigation_stack({**values, **with_outline(values, self._outline())})
@@ -210,7 +210,7 @@ class RobotNavigation(ModelPlugin):
         scan = self._scan
         if not busy or scan is None:
             if not busy:
-                self._fall_asleep()
+                self._disable_laser()
             return
         true, odom = self._robot.planar_pose(), self._robot.outputs["odom"].last
         yaws = yaw_of(odom.quaternion)
@@ -298,7 +298,7 @@ class RobotNavigation(ModelPlugin):
     def _receive_scan(self, unit: SensorUnit) -> None:
         self._scan = unit.reading(unit.current())
 
-    def _fall_asleep(self) -> None:
+    def _disable_laser(self) -> None:
         """Disable the laser while there is no goal."""
         if self._sleep is not None:
             self._sleep()
@@ -310,7 +310,7 @@ class RobotNavigation(ModelPlugin):
         for world in [*self.pilots] if worlds is None else worlds.tolist():
             self.pilots.pop(world, None)
             self.traffic.pop(world, None)
-        self._fall_asleep()
+        self._disable_laser()
 
 
 class GoalTask:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections import deque
 from collections.abc import Mapping, Sequence
 
@@ -82,7 +83,7 @@ class GoalSeeker:
         """Goal (x, y) or (x, y, yaw); None without one."""
         return None if self._goal is None else tuple(self._goal[~np.isnan(self._goal)].tolist())
 
-    def seek(self, goal: Sequence[float]) -> None:
+    def set_goal(self, goal: Sequence[float]) -> None:
         """Set another goal.
 
         Args:
@@ -92,6 +93,11 @@ class GoalSeeker:
         self.arrived = self._turning = False
         self.path = np.zeros((0, 2))
         self._planned_at, self._best = -math.inf, math.inf
+
+    def seek(self, goal: Sequence[float]) -> None:
+        """Set another goal; deprecated, use `set_goal`."""
+        warnings.warn(DeprecationWarning("GoalSeeker.seek is called set_goal now"), stacklevel=2)
+        self.set_goal(goal)
 
     def stop(self) -> None:
         """Clear the goal; the map stays."""

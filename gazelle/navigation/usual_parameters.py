@@ -46,10 +46,10 @@ def merged(usual: Mapping[str, Any], overrides: Mapping[str, Any]) -> dict[str, 
     """Merge parameters over others, level by level.
 
     Raises:
-        SimulationError: They are no mapping.
+        SimulationError: They are not a mapping.
     """
     if not isinstance(overrides, Mapping):
-        raise SimulationError(f"parameters are a mapping of names to values, not {overrides!r}")
+        raise SimulationError(f"parameters must be a mapping of names to values, not {overrides!r}")
     found = dict(usual)
     for name, value in overrides.items():
         below = found.get(name)

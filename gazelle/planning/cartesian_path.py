@@ -84,7 +84,9 @@ class CartesianPlanner:
         reasons: Callable[[Floats], list[str]],
     ) -> None:
         if not max_step > 0.0:
-            raise PlanningError(f"the step of a Cartesian path is above zero, not {max_step!r}")
+            raise PlanningError(
+                f"the step of a Cartesian path must be above zero, not {max_step!r}"
+            )
         self._ik, self._step = kinematics, max_step
         self._valid, self._reasons = valid, reasons
         self._state = np.array(state, np.float64)

@@ -85,7 +85,7 @@ class GoalStates:
     def _of_constraints(self, goal: ConstraintSet) -> Floats:
         goal.check(self._robot)
         if not goal:
-            raise NoPlanError("the goal says nothing", PlanOutcome.INVALID_GOAL_CONSTRAINTS)
+            raise NoPlanError("the goal has no constraints", PlanOutcome.INVALID_GOAL_CONSTRAINTS)
         links = {each.link for each in goal.positions}
         links |= {each.link for each in goal.orientations}
         if not links:
@@ -99,7 +99,9 @@ class GoalStates:
                 return self._of_pose(next(iter(links)), aim, poses, each)
             except NoPlanError as error:
                 failure = failure or error
-        raise failure or NoPlanError("the goal says nothing", PlanOutcome.INVALID_GOAL_CONSTRAINTS)
+        raise failure or NoPlanError(
+            "the goal has no constraints", PlanOutcome.INVALID_GOAL_CONSTRAINTS
+        )
 
     def _poses(self, goal: ConstraintSet) -> tuple[list[Pose], Aim]:
         """Return poses that fulfil constraints of one link, and the constrained parts."""
@@ -135,10 +137,10 @@ class GoalStates:
         shared = sorted(moving[link] & {*itertools.chain(*(moving[o] for o in links if o != link))})
         if shared:
             raise NoPlanError(
-                f"the goal is about {len(links)} links at once, {', '.join(links)}, which the joints "
+                f"the goal constrains {len(links)} links at once, {', '.join(links)}, which the joints "
                 f"{', '.join(shared)} move together",
                 PlanOutcome.INVALID_GOAL_CONSTRAINTS,
-                "one of them has a pose; say the others by joints",
+                "one of them has a pose; give the others as joint positions",
             )
         own = ConstraintSet(
             positions=tuple(each for each in goal.positions if each.link == link),

@@ -37,9 +37,11 @@ class GripperTranslation:
         """
         numbers = (*self.direction, self.desired, self.minimum)
         if not all(map(math.isfinite, numbers)) or min(self.desired, self.minimum) < 0.0:
-            raise PlanningError("distances of a hand's way are finite and not below zero")
+            raise PlanningError(
+                "distances of a gripper translation must be finite and not negative"
+            )
         if math.hypot(*self.direction) == 0.0:
-            raise PlanningError("the direction of a hand's way is zero")
+            raise PlanningError("the direction of a gripper translation is zero")
 
     @property
     def unit(self) -> Vector3:
@@ -82,10 +84,10 @@ class Grasp:
 @checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class PlaceLocation:
-    """Somewhere to put a thing that is held.
+    """Place for putting down a held object.
 
     Attributes:
-        pose: Of the thing in the robot's frame.
+        pose: Of the object in the robot's frame.
         approach: Approach.
         retreat: Retreat of the hand.
         open: Positions of the gripper's joints that release.

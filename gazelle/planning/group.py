@@ -278,7 +278,7 @@ class Group:
         """Return a plan to pick up an object of the scene with the gripper; ``run`` it.
 
         Args:
-            name: Of the thing, as ``scene`` has it.
+            name: Of the object, as ``scene`` has it.
             grasps: Of which one is taken, better ones first (``box_grasps``).
             effector: Name of the end effector in the SRDF; the group's one if empty.
             gripper: Gripper that closes; the robot's one if None.

@@ -26,7 +26,7 @@ def checked_poses(poses: object) -> list[Pose]:
         raise PlanningError(f"a path needs a list of one pose or more, not {poses!r}")
     for number, pose in enumerate(listed):
         if not isinstance(pose, Pose):
-            raise PlanningError(f"pose {number} of a path is no gazelle.Pose: {pose!r}")
+            raise PlanningError(f"pose {number} of a path is not a gazelle.Pose: {pose!r}")
     return listed
 
 

@@ -1,4 +1,4 @@
-"""Things taken and put down by a robot in a simulation: a plan, stage by stage."""
+"""Objects taken and put down by a robot in a simulation: a plan, stage by stage."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class MovingGroup(Protocol):
 @checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class Manipulation:
-    """A plan to take a thing, or to put it down, for a robot in a simulation."""
+    """A plan to take an object, or to put it down, for a robot in a simulation."""
 
     plan: ManipulationPlan
     group: MovingGroup

@@ -38,10 +38,10 @@ class ManipulationStage:
 @checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class ManipulationPlan:
-    """A plan to take a thing, or to put it down.
+    """A plan to take an object, or to put it down.
 
     Attributes:
-        object: The thing.
+        object: The object.
         stages: One after another.
         choice: Index of the chosen grasp or place.
         link: Link that holds the object.
@@ -65,7 +65,7 @@ class ContactRules:
     Attributes:
         support: Support of the object, which may touch it. If empty, the current contacts.
         hand_on_support: Whether the hand may touch that, too.
-        touch_links: Links that the thing may touch when it is held, beside the hand's.
+        touch_links: Links that the object may touch when it is held, beside the hand's.
         touches: Links and objects that the hand may touch.
     """
 

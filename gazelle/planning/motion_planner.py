@@ -123,7 +123,7 @@ class MotionPlanner:
         self.scene, self.group = scene, group
         self.options = options or PlanOptions()
         if not self.options.time > 0.0 or not self.options.segment > 0.0:
-            raise PlanningError("the time to plan and the segment are above zero")
+            raise PlanningError("planning time and segment length must be above zero")
         self._planner = planner_of(self.options.planner)
         limits = PathLimits(group.max_velocity, group.max_acceleration)
         self._turners: dict[str, InverseKinematics] = {}
@@ -231,7 +231,7 @@ class MotionPlanner:
         """Return the start within limits, and the check of states.
 
         Raises:
-            NoPlanError: The start cannot be.
+            NoPlanError: The start is invalid.
         """
         state = self._given(start)
         if constraints is not None:
@@ -268,10 +268,10 @@ class MotionPlanner:
         path = self._searched(here, goals, validity, until, seed)
         if path is None:
             raise NoPlanError(
-                f"{self._planner} found no way to the goal in {self.options.time:g} s "
+                f"{self._planner} found no path to the goal in {self.options.time:g} s "
                 f"({validity.checks} states checked); the goal itself is free",
                 PlanOutcome.TIMED_OUT,
-                "allow more time, or look at what stands in the way",
+                "allow more time, or check the obstacles",
             )
         return shorten(path, validity, random, until)
 

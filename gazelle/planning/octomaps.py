@@ -1,4 +1,4 @@
-"""Octrees as things of a planning scene."""
+"""Octrees as objects of a planning scene."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def octree_object(octree: Octree, pose: Pose | None = None, name: str = OCTOMAP)
     Args:
         octree: The map.
         pose: Of its frame, in the robot's.
-        name: Of the thing.
+        name: Of the object.
 
     Raises:
         FormatError: The octree cannot be read.

@@ -1,8 +1,8 @@
-"""Plans to take a thing and to put it down: moves to and fro, with the gripper's part between them.
+"""Plans to take an object and to put it down: moves to and fro, with the gripper's part between them.
 
 Stages and their names are those of MoveIt's pick and place: the gripper opens (``pre_grasp``), the arm goes
 to where it can approach (``plan``), approaches straight, the gripper closes (``grasp``), and the hand retreats
-straight with the thing. To put it down, the gripper opens (``release``) after the approach.
+straight with the object. To put it down, the gripper opens (``release``) after the approach.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ class PickPlacePlanner:
     """Plans for a group with a gripper at its end.
 
     Args:
-        scene: With the thing; it stays as it is.
+        scene: With the object; it stays as it is.
         group: The arm.
         effector: Name of the end effector; the group's one if empty.
         options: Planning options.
@@ -84,7 +84,7 @@ class PickPlacePlanner:
         """Return a plan to pick up an object of the scene.
 
         Args:
-            name: Of the thing.
+            name: Of the object.
             grasps: Of which one is taken, better ones first.
             start: Of all variables; the scene's state if None. Shape (variables,).
             rules: Contact rules.
@@ -95,7 +95,7 @@ class PickPlacePlanner:
         """
         if name not in self._scene.objects:
             raise NoPlanError(
-                f"there is nothing called '{name}' in the scene",
+                f"there is no object '{name}' in the scene",
                 PlanOutcome.INVALID_OBJECT_NAME,
                 did_you_mean(name, self._scene.objects),
             )
@@ -124,7 +124,7 @@ class PickPlacePlanner:
         """
         if name not in self._scene.attached:
             raise NoPlanError(
-                f"nothing called '{name}' is held",
+                f"no object '{name}' is held",
                 PlanOutcome.INVALID_OBJECT_NAME,
                 did_you_mean(name, self._scene.attached),
             )
@@ -159,7 +159,7 @@ class PickPlacePlanner:
                 why.setdefault("the time was up", PlanOutcome.TIMED_OUT)
                 break
         raise NoPlanError(
-            f"none of {len(quality)} {what}s can be done: " + "; ".join([*why][:3]),
+            f"none of {len(quality)} {what}s is feasible: " + "; ".join([*why][:3]),
             next(iter(why.values())),
         )
 

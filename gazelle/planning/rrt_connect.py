@@ -116,7 +116,7 @@ def _grow(
     validity: StateValidity,
     project: Projection | None,
 ) -> int:
-    """Add one edge towards a point; returns the index of its end, -1 if that cannot be."""
+    """Add one edge towards a point; returns the index of its end, -1 if that is impossible."""
     nearest = tree.nearest(towards)
     here = tree.point(nearest)
     offset = towards - here

@@ -202,7 +202,7 @@ class PlanningScene:
             if link not in self.attached:
                 self.robot.link(link)
             if not 0.0 <= value < np.inf:
-                raise PlanningError(f"the padding of '{link}' is a length, not {value!r}")
+                raise PlanningError(f"the padding of '{link}' must be a length, not {value!r}")
         self._padding |= padding
         self._changed()
 
@@ -220,7 +220,7 @@ class PlanningScene:
         for link, value in scale.items():
             self.robot.link(link)
             if not 0.0 < value < np.inf:
-                raise PlanningError(f"the scale of '{link}' is above zero, not {value!r}")
+                raise PlanningError(f"the scale of '{link}' must be above zero, not {value!r}")
         self._scale |= scale
         self._changed()
 

@@ -12,7 +12,7 @@ from gazelle.errors import PlanningError
 @checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class SceneContact:
-    """Two things that touch and may not.
+    """Two objects that touch and may not.
 
     Attributes:
         first: Name of a link or an object.

@@ -28,7 +28,7 @@ from gazelle.formats import MeshData, Octree
 @checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class SceneObject:
-    """A thing of one or more shapes.
+    """An object of one or more shapes.
 
     Attributes:
         name: Unique in its scene.
@@ -50,10 +50,10 @@ class SceneObject:
 @checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class AttachedObject:
-    """A thing that moves with a link.
+    """An object that moves with a link.
 
     Attributes:
-        object: The thing; its pose is in the link's frame.
+        object: The object; its pose is in the link's frame.
         link: Link that holds it.
         touch_links: Links that it may touch, besides that one.
     """

@@ -54,7 +54,9 @@ class PathLimits:
         """
         for name, value in (("velocity", velocity), ("acceleration", acceleration)):
             if not 0.0 < value <= 1.0:
-                raise PlanningError(f"the scaling factor of {name} is within (0, 1], not {value!r}")
+                raise PlanningError(
+                    f"the scaling factor of {name} must be within (0, 1], not {value!r}"
+                )
         known = np.where(np.isfinite(self.velocity), self.velocity, DEFAULT_VELOCITY)
         bounded = np.where(np.isfinite(self.acceleration), self.acceleration, DEFAULT_ACCELERATION)
         return PathLimits(known * velocity, bounded * acceleration)
@@ -83,7 +85,7 @@ class TimedPath:
         return float(self.times[-1])
 
     def slower(self, factor: float) -> TimedPath:
-        """Return the same path in so many times the time."""
+        """Return the same path with its times scaled by a factor."""
         return TimedPath(
             self.times * factor,
             self.positions,

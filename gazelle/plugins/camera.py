@@ -72,7 +72,7 @@ class PublishedCamera:
         sensor: Measures.
         camera: Of the sensor.
         settings: Names and lens.
-        look: The camera's picture now.
+        capture: The camera's picture now.
         may_publish: Whether a measurement is published.
 
     Attributes:
@@ -84,10 +84,10 @@ class PublishedCamera:
         sensor: SensorUnit,
         camera: Camera,
         settings: CameraSettings,
-        look: Callable[[], CameraImage],
+        capture: Callable[[], CameraImage],
         may_publish: Callable[[], bool] | None = None,
     ) -> None:
-        self.sensor, self.camera, self.settings, self.look = sensor, camera, settings, look
+        self.sensor, self.camera, self.settings, self.capture = sensor, camera, settings, capture
         self.encoding = encoding_of(camera.format, sensor.name)
         self._may_publish = may_publish
         self._last_info_ns: int | None = None
@@ -113,17 +113,17 @@ class PublishedCamera:
         )
 
     def _image(self) -> ImageValue:
-        seen = self.look()
+        seen = self.capture()
         return ImageValue(seen.stamp, pixels_of(seen.color, self.encoding), self.encoding)
 
     def _compressed(self) -> CompressedImageValue:
-        seen = self.look()
+        seen = self.capture()
         grey = self.encoding.startswith("mono")
         return CompressedImageValue(seen.stamp, pixels_of(seen.color, "mono8" if grey else "rgb8"))
 
     def info(self) -> CameraInfoValue:
         """Return the camera info at the moment of the picture."""
-        return self.settings.info(self.camera, self.look().stamp)
+        return self.settings.info(self.camera, self.capture().stamp)
 
     def _info_is_due(self) -> bool:
         if self._may_publish is not None and not self._may_publish():
@@ -154,9 +154,9 @@ class CameraPlugin(SensorPlugin):
 
     def open(self, camera: Camera, settings: CameraSettings) -> None:
         """Open the ports."""
-        PublishedCamera(self._sensor, camera, settings, self.look).open()
+        PublishedCamera(self._sensor, camera, settings, self.capture).open()
 
-    def look(self) -> CameraImage:
+    def capture(self) -> CameraImage:
         """Return the camera's picture now."""
         image: CameraImage = self._sensor.reading(self._sensor.current())
         return image
@@ -200,7 +200,7 @@ class TriggeredCameraPlugin(CameraPlugin):
     def open(self, camera: Camera, settings: CameraSettings) -> None:
         """Open the ports."""
         trigger = PictureTrigger(self._sensor, settings)
-        PublishedCamera(self._sensor, camera, settings, self.look, trigger.is_pulled).open()
+        PublishedCamera(self._sensor, camera, settings, self.capture, trigger.is_pulled).open()
 
 
 class ThermalCameraPlugin(CameraPlugin):
@@ -212,7 +212,7 @@ class ThermalCameraPlugin(CameraPlugin):
 
     def _warmth(self) -> CameraImage:
         """Return a thermal picture: white where it is (255, 0, 0), else an eighth of the sum."""
-        seen = self.look()
+        seen = self.capture()
         grey = (seen.color.sum(axis=-1) // 8).astype(np.uint8)
         grey[(seen.color == (255, 0, 0)).all(axis=-1)] = 255
         return replace(seen, color=np.repeat(grey[..., None], 3, axis=-1))
@@ -227,13 +227,13 @@ class MultiCameraPlugin(SensorPlugin):
             side = next((s for s in ("left", "right") if s in camera.name), camera.name)
             settings = CameraSettings.read(sensor, camera, parameters, suffix=side)
 
-            def look(number: int = number) -> CameraImage:
+            def capture(number: int = number) -> CameraImage:
                 seen = sensor.reading(sensor.current())
                 image: CameraImage = seen[number] if isinstance(seen, tuple) else seen
                 return image
 
             may_publish = self.trigger(sensor, settings, side)
-            PublishedCamera(sensor, camera, settings, look, may_publish).open()
+            PublishedCamera(sensor, camera, settings, capture, may_publish).open()
 
     def trigger(
         self,

@@ -108,7 +108,7 @@ class CommandTimeout:
 
     def _keep(self) -> None:
         tables = self._tables
-        self._command.keep_in(tables.linear[:, 0], tables.angular[:, 0], tables.revision)
+        self._command.store_in(tables.linear[:, 0], tables.angular[:, 0], tables.revision)
 
 
 class CommandGroup:

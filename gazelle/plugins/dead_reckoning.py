@@ -46,7 +46,7 @@ class ReckoningTables:
             self.pose[:, own], self.twist[:, own], self.angles[:, own], self.last_ns[own]
         )
 
-    def take_over(self, other: ReckoningTables) -> None:
+    def copy_from(self, other: ReckoningTables) -> None:
         """Copy what others of the same size have."""
         self.pose[:], self.twist[:] = other.pose, other.twist
         self.angles[:], self.last_ns[:] = other.angles, other.last_ns
@@ -116,7 +116,7 @@ class DeadReckoning:
 
     def join(self, tables: ReckoningTables) -> None:
         """Store the state in other tables of one pair from now on."""
-        tables.take_over(self.tables)
+        tables.copy_from(self.tables)
         self.tables = tables
 
     def restart(self) -> None:

@@ -51,7 +51,7 @@ class DepthCameraPlugin(CameraPlugin):
     def open(self, camera: Camera, settings: CameraSettings) -> None:
         """Open the ports."""
         self._camera, self._settings = camera, settings
-        topics = PublishedCamera(self._sensor, camera, settings, self.look)
+        topics = PublishedCamera(self._sensor, camera, settings, self.capture)
         self._encoding = topics.encoding
         topics.open()
         depth, info, points = self._topics
@@ -61,7 +61,7 @@ class DepthCameraPlugin(CameraPlugin):
 
     def _depths(self) -> ImageValue:
         """Return depths in metres, NaN for unknown; or in millimetres, 0 for unknown."""
-        seen = self.look()
+        seen = self.capture()
         depth, valid = self._valid(seen.depth)
         if not self._millimetres:
             return ImageValue(seen.stamp, np.where(valid, depth, np.float32(math.nan)), "32FC1")
@@ -71,7 +71,7 @@ class DepthCameraPlugin(CameraPlugin):
 
     def _points(self) -> PixelPoints:
         """Return points along the rays of pixels, about the middle of the picture."""
-        seen = self.look()
+        seen = self.capture()
         depth, valid = self._valid(seen.depth)
         focal = self._settings.info(self._camera, seen.stamp).focal_length
         height, width = depth.shape[1:]

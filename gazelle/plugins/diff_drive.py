@@ -183,7 +183,7 @@ class EncoderDrives(OdometrySystem[DiffDrive]):
     def update(self, time: float) -> None:  # noqa: ARG002  the clock knows it exactly
         """Count and drive."""
         self._rolled.advance()
-        self._law.bring(0, self._rows, self._clock.now_ns)
+        self._law.update_from_python(0, self._rows, self._clock.now_ns)
 
 
 def _source(parameters: Parameters) -> str:

@@ -57,7 +57,7 @@ class WheelTables:
             self.last_ns[:, own],
         )
 
-    def take_over(self, other: WheelTables) -> None:
+    def copy_from(self, other: WheelTables) -> None:
         """Copy the memory of other tables of as many drives."""
         self.linear[:], self.angular[:] = other.linear, other.angular
         self.speeds[:], self.sent[:], self.last_ns[:] = other.speeds, other.sent, other.last_ns

@@ -56,7 +56,7 @@ class Elevator(ModelPlugin):
         """Call the elevator to a floor.
 
         Raises:
-            SimulationError: The text is no number.
+            SimulationError: The text is not a number.
         """
         try:
             floor = int(text)

@@ -61,7 +61,7 @@ class GraspFix(ModelPlugin):
         if parameters.get("disable_collisions_on_attach", False):
             warnings.warn(
                 SimulationWarning(
-                    f"'{robot.name}': held objects go on touching; disable_collisions_on_attach "
+                    f"'{robot.name}': contacts with held objects stay enabled; disable_collisions_on_attach "
                     "of grasp_fix has no effect"
                 ),
                 stacklevel=2,

@@ -25,8 +25,8 @@ class GravityCompensation(ModelPlugin):
         if not held:
             warnings.warn(
                 SimulationWarning(
-                    f"'{robot.name}' is not held to the world: its joints go on feeling the "
-                    "weight on them"
+                    f"'{robot.name}' is not fixed to the world: gravity on its joints is not "
+                    "compensated"
                 ),
                 stacklevel=2,
             )

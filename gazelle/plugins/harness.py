@@ -201,7 +201,7 @@ def _ropes(robot: Robot, parameters: Parameters) -> Iterator[_Rope]:
     )
     for tag in parameters.find_all("joint"):
         if tag.require("parent", str) != "world":
-            raise SimulationError("a harness hangs on the world only", source=tag.source)
+            raise SimulationError("a harness must be attached to the world", source=tag.source)
         link, offset = robot.frame(tag.require("child", str))
         name = tag.attributes.get("name", "")
         owner = f"{robot.name}/harness/{name}"

@@ -94,4 +94,4 @@ class ImuSystem(PublisherSystem[ImuPlugin]):
 
     def publish(self, plugin: ImuPlugin, measured: ImuReading) -> None:
         """Publish the reading of one IMU."""
-        plugin.output.hand(measured)
+        plugin.output.publish_computed(measured)

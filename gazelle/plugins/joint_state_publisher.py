@@ -77,4 +77,4 @@ class JointStateSystem(PublisherSystem[JointStatePublisher]):
 
     def publish(self, plugin: JointStatePublisher, measured: JointStates) -> None:
         """Publish what was measured of one plugin's joints."""
-        plugin.output.hand(measured)
+        plugin.output.publish_computed(measured)

@@ -136,7 +136,7 @@ class Kobuki(ModelPlugin):
         """Publish, with the odometry as it was measured."""
         self._states.publish()
         if self._imu_data.has_subscribers:
-            self._imu_data.hand(self._reading(self.gyro.copy()))
+            self._imu_data.publish_computed(self._reading(self.gyro.copy()))
         self.odometry.publish(measured)
         times, now_ns = self._core_times, self._clock.now_ns
         core_due = self._core.has_subscribers and times.is_due(now_ns)

@@ -137,14 +137,14 @@ class OdometryOutputs:
         It is measured unless given.
         """
         if self.has_subscribers:
-            self.hand(measured or self._measure())
+            self.publish_computed(measured or self._measure())
 
-    def hand(self, odometry: Odometry) -> None:
+    def publish_computed(self, odometry: Odometry) -> None:
         """Publish a measured odometry to all subscribers."""
         if self._odom is not None and self._odom.has_subscribers:
-            self._odom.hand(odometry)
+            self._odom.publish_computed(odometry)
         if self._frame is not None and self._frame.has_subscribers:
-            self._frame.hand(as_transforms(odometry))
+            self._frame.publish_computed(as_transforms(odometry))
 
 
 class OdometryPlugin(Protocol):

@@ -129,7 +129,7 @@ class P3DSystem(PublisherSystem[P3D]):
 
     def publish(self, plugin: P3D, measured: TruePose) -> None:
         """Publish what was measured of one body."""
-        plugin.output.hand(measured)
+        plugin.output.publish_computed(measured)
 
 
 def poses_of(plugins: Sequence[P3D]) -> list[TruePose]:

@@ -61,7 +61,7 @@ class Gains:
             most: Largest output either way.
 
         Raises:
-            SimulationError: One is no number.
+            SimulationError: One is not a number.
         """
         try:
             p, i, d, clamp = (

@@ -141,4 +141,4 @@ class CommandTimeoutSystem(SlidingSystem):
         if self._law is None:
             super().update(time)
         else:
-            self._law.bring(0, self._simulation.nworld * self._law.rows, 0)
+            self._law.update_from_python(0, self._simulation.nworld * self._law.rows, 0)

@@ -36,7 +36,7 @@ class RangeFinder(Noisy, SensorPlugin):
             noise, simulation.seed, f"{sensor.name}::range", simulation.nworld, 1
         )
         self._noises = {"noise": self._noise}
-        sensor.slow_to(parameters.get("updateRate", 0.0))
+        sensor.limit_rate(parameters.get("updateRate", 0.0))
         topic = parameters.get("topicName", "/range")
         namespace = namespace_of(robot, parameters)
         robot.outputs[topic.strip("/")] = SensorOutput(

@@ -30,7 +30,7 @@ class RealSenseInfrared(CameraPlugin):
 
     def open(self, camera: Camera, settings: CameraSettings) -> None:
         """Open the ports."""
-        InfraredTopics(self._sensor, camera, settings, self.look).open()
+        InfraredTopics(self._sensor, camera, settings, self.capture).open()
 
 
 class RealSenseDepth(DepthCameraPlugin):
@@ -52,7 +52,7 @@ class RealSenseDepth(DepthCameraPlugin):
         """Open the ports."""
         self._camera, self._settings = camera, settings
         self._least, self._most = self._cutoff
-        topics = PublishedCamera(self._sensor, camera, settings, self.look)
+        topics = PublishedCamera(self._sensor, camera, settings, self.capture)
         self._encoding = topics.encoding
         depth, info, points = self._topics
         topics.add(depth, ImageValue, self._depths)
@@ -62,7 +62,7 @@ class RealSenseDepth(DepthCameraPlugin):
 
     def _depths(self) -> ImageValue:
         """Return millimetres, 0 for what is out of the range; points have limits of their own."""
-        seen = self.look()
+        seen = self.capture()
         depth, _ = self._valid(seen.depth)
         with np.errstate(invalid="ignore"):
             inside = (depth >= self._nearest) & (depth <= self._farthest)

@@ -106,7 +106,7 @@ class ScriptedMotion(ModelPlugin):
             turned=np.array([0.0, 0.0, 0.0, 1.0]),
             moved=np.zeros(1),
         )
-        path.bring(0, len(elapsed), 0)
+        path.update_from_python(0, len(elapsed), 0)
         return position, quaternion[:, [1, 2, 3, 0]]
 
     def _on_splines(self, elapsed: Floats) -> tuple[Floats, Floats]:

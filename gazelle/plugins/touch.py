@@ -30,7 +30,7 @@ class Touch(ModelPlugin):
         for tag in parameters.find_all("sensor"):
             model = robot.sensors[tag.text].model
             if not isinstance(model, ContactModel):
-                raise SimulationError(f"'{tag.text}' is no contact sensor", source=tag.source)
+                raise SimulationError(f"'{tag.text}' is not a contact sensor", source=tag.source)
             self._collisions.extend(model.collisions)
         if not self._collisions:
             raise SimulationError("a <sensor> is required here", source=parameters.source)

@@ -152,9 +152,9 @@ class TricycleDrive(ModelPlugin):
             return TrueOdometry(self._robot, frame, base)
         return RolledOdometry(self.reckoning, frame, base, POSE_VARIANCE)
 
-    def keep_in(self, linear: Floats, angular: Floats) -> None:
+    def store_in(self, linear: Floats, angular: Floats) -> None:
         """Store commands in other arrays, shape (nworld, 3) each."""
-        self._command.keep_in(linear, angular)
+        self._command.store_in(linear, angular)
 
     def _wheel_frames(self) -> Transforms:
         return joint_transforms(self._robot, map(self._robot.joint_description, self._names))
@@ -206,7 +206,7 @@ class TricycleSystem(OdometrySystem[TricycleDrive]):
         self._wheels = JointArray([each.joints[1] for each in plugins])
         self._linear, self._angular = np.zeros((2, *self._rolled.tables.pose.shape))
         for part, each in enumerate(plugins):
-            each.keep_in(self._linear[:, part], self._angular[:, part])
+            each.store_in(self._linear[:, part], self._angular[:, part])
 
     def update(self, time: float) -> None:  # noqa: ARG002  the clock knows it exactly
         """Count, drive and steer."""

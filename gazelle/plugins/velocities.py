@@ -39,7 +39,9 @@ class RandomVelocity(ModelPlugin):
             for end, far in (("min", -_FAR), ("max", _FAR))
         )
         if (self._least > self._most).any():
-            raise SimulationError("a least velocity is above its most", source=parameters.source)
+            raise SimulationError(
+                "a minimum velocity is above the maximum", source=parameters.source
+            )
         name = f"{self._link.name}::random_velocity"
         self._stream = Stream(robot.simulation.seed, name, nworld)
         self._drawn: Floats = np.full(nworld, robot.simulation.time)

@@ -47,9 +47,9 @@ class WheelMotors:
 
     def join(self, tables: WheelTables) -> None:
         """Store commands and memory in other tables of one drive from now on."""
-        tables.take_over(self.tables)
+        tables.copy_from(self.tables)
         self.tables = tables
-        self._command.keep_in(tables.linear[:, 0], tables.angular[:, 0])
+        self._command.store_in(tables.linear[:, 0], tables.angular[:, 0])
 
     def forget(self, worlds: Worlds | None) -> None:
         """Discard the motors' commands in some worlds; all if None."""

@@ -131,7 +131,7 @@ def _wheel(robot: Robot, tag: Parameters) -> _Wheel:
     """Return a wheel as its element describes it.
 
     Raises:
-        SimulationError: The link is no wheel, or its radius is not known.
+        SimulationError: The link is not a wheel, or its radius is not known.
     """
     name = tag.attributes.get("link_name", "")
     link = robot.links[name]

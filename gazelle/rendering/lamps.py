@@ -1,4 +1,4 @@
-"""The lights of a description as the rasteriser wants them."""
+"""The lights of a description for the rasteriser."""
 
 from __future__ import annotations
 

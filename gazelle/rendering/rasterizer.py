@@ -394,6 +394,6 @@ class Rasterizer:
 
 
 def first_middle(edge: float, most: int) -> int:
-    """Return the first of so many pixels whose middle is not before an edge."""
+    """Return the first of a given number of pixels whose middle is not before an edge."""
     inside = min(max(edge - 0.5, 0.0), 1.0 * most)
     return cython.cast(cython.int, ceil(inside))  # type: ignore[no-any-return]

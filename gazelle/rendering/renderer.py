@@ -9,7 +9,7 @@ import numpy as np
 from gazelle.argument_checks import checked
 from gazelle.array_types import Bytes, Floats, Floats32, Ints32, Ints64, Worlds
 from gazelle.description import World
-from gazelle.engines.limits import MAX_WORLDS, whole_number
+from gazelle.engines.limits import MAX_WORLDS, integer
 from gazelle.errors import EngineError, did_you_mean
 from gazelle.native.worker_pool import WorkerPool
 from gazelle.rendering import columns as c
@@ -75,7 +75,7 @@ class Renderer:
         shadows: bool = False,
         seen: VisibleWorld | None = None,
     ) -> None:
-        whole_number("nworld", nworld, most=MAX_WORLDS)
+        integer("nworld", nworld, most=MAX_WORLDS)
         self.shadows = shadows
         seen = visible_world(world) if seen is None else seen
         self.links: tuple[str, ...] = seen.links

@@ -217,7 +217,7 @@ class Shader:
         u = z * (self.planes[s, 9] * c + self.planes[s, 10] * r + self.planes[s, 11])
         v = z * (self.planes[s, 12] * c + self.planes[s, 13] * r + self.planes[s, 14])
         u, v = u - floor(u), v - floor(v)
-        u = u if 0.0 <= u <= 1.0 else 0.0  # what is no number would be no place in the picture
+        u = u if 0.0 <= u <= 1.0 else 0.0  # what is not a number would be no place in the picture
         v = v if 0.0 <= v <= 1.0 else 0.0
         x, y = u * wide - 0.5, v * high - 0.5
         a = cython.cast(cython.Py_ssize_t, floor(x))

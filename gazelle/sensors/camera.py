@@ -129,7 +129,7 @@ class CameraModel:
         place, pose = self._engine.links[self.link].placement(worlds), self.poses[number]
         at = place.position + rotate(place.quaternion, np.asarray(pose.position))
         turned = multiply(place.quaternion, np.asarray(pose.quaternion))
-        return optics.look(self._scene, at, turned, worlds, depth=depth)
+        return optics.render(self._scene, at, turned, worlds, depth=depth)
 
     def _noisy(self, number: int, color: Bytes, worlds: Worlds | None) -> Bytes:
         """Add the same normal number to red, green and blue of a pixel, as Gazebo does."""

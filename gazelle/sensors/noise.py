@@ -88,7 +88,7 @@ class NoiseModel:
         return self._stddev[rows, 0], stream.keys[rows], stream.counters[rows], bias
 
     def follow(self, worlds: Worlds, counters: UInts64) -> None:
-        """Continue after so many numbers in some worlds, shape (n,)."""
+        """Continue the streams of some worlds after this number of draws, shape (n,)."""
         self._stream.counters[worlds] = counters
 
     def move(self, stddev: Floats, keys: UInts64, counters: UInts64, bias: Floats) -> None:

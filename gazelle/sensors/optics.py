@@ -16,7 +16,7 @@ from gazelle.sensors.lens_distortion import LensDistortion
 class Optics(Protocol):
     """Draws what one camera sees, in some worlds."""
 
-    def look(
+    def render(
         self,
         scene: LiveScene,
         positions: Floats,
@@ -53,7 +53,7 @@ class PinholeOptics:
         self._lens = PinholeLens.of_camera(camera)
         self._bend = LensDistortion(camera, legacy=legacy) if any(camera.distortion) else None
 
-    def look(
+    def render(
         self,
         scene: LiveScene,
         positions: Floats,
@@ -87,7 +87,7 @@ class WideOptics:
             )
         self._view = WideView(WideLens.of_camera(camera))
 
-    def look(
+    def render(
         self,
         scene: LiveScene,
         positions: Floats,

@@ -68,7 +68,7 @@ class ControlLoop(ModelPlugin):
             call=self._call,
             namespace=namespace,
             measure=self._measure,
-            settle=self.settle,
+            sync=self.sync,
         )
         self.manager.now_ns = self._clock.now_ns
         self.stopped: Bools = np.zeros(hardware.nworld, bool)
@@ -105,7 +105,7 @@ class ControlLoop(ModelPlugin):
             self._handed_over = False
             self._catch_up()
 
-    def settle(self) -> None:
+    def sync(self) -> None:
         """Take over the state that native code computed so far."""
         if self._handed_over:
             with self._robot.simulation.lock:
@@ -204,7 +204,7 @@ class ControlLoop(ModelPlugin):
         cycle.begin(_or_never(self._updated_ns), _or_never(self._written_ns))
         self._handed_over = True
         # Without controllers nothing reports when there is nothing left to do.
-        return InStepWork((cycle,), self.manager.wake_ns(), bool(laws) and self.manager.patient)
+        return InStepWork((cycle,), self.manager.wake_ns(), bool(laws) and self.manager.deferrable)
 
     @property
     def _control_ns(self) -> int:
@@ -240,7 +240,7 @@ class ControlLoop(ModelPlugin):
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
         """Return the state of hardware and controllers."""
-        self.settle()
+        self.sync()
         times = [-1 if each is None else each for each in (self._updated_ns, self._written_ns)]
         return {
             "times": np.array(times, np.int64),
@@ -284,9 +284,9 @@ class ControlSystem(PluginSystem[ControlLoop]):
         """Return the control cycle, and until when it is good."""
         return self.plugins[0].in_step()
 
-    def settle(self) -> None:
+    def sync(self) -> None:
         """Take over the state that native code computed."""
-        self.plugins[0].settle()
+        self.plugins[0].sync()
 
 
 def _or_never(time_ns: int | None) -> int:

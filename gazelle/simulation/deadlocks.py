@@ -53,7 +53,7 @@ class BlockedOwner:
         frame = sys._current_frames().get(owner)  # noqa: SLF001  there is no other way to know
         if frame is None and owner and all(owner != each.ident for each in threading.enumerate()):
             raise SimulationError(
-                "the simulation cannot answer: a thread ended that owned its state",
+                "the simulation is blocked: a thread ended while it held the state lock",
                 hint="hold the lock using 'with sim.lock:', or release what was acquired",
             )
         if frame is None or not _waits(frame):
@@ -64,10 +64,10 @@ class BlockedOwner:
             self._place, self._since = place, now
         if _joins_me(frame) or now - self._since >= _PATIENCE:
             raise SimulationError(
-                f"the simulation cannot answer: thread '{_name_of(owner)}' owns its state and "
+                f"the simulation is blocked: thread '{_name_of(owner)}' holds the state lock and "
                 f"waits for another thread at {_caller(frame)}",
                 hint="a callback must not wait for a thread that uses the simulation: "
-                "let the callback read, or go on without waiting",
+                "do not wait in the callback",
             )
 
 

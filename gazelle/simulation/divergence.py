@@ -26,7 +26,7 @@ _MOST_DUMPS = 10
 
 @dataclass(frozen=True, slots=True)
 class Fault:
-    """A world that broke down.
+    """Report of a diverged world.
 
     Attributes:
         world: Its index.

@@ -8,7 +8,7 @@ from typing import TypeVar
 from gazelle.array_types import Worlds
 from gazelle.description import Model
 from gazelle.errors import SimulationError, did_you_mean
-from gazelle.simulation.loading import adopt, is_plain
+from gazelle.simulation.loading import is_plain, start_plugins
 from gazelle.simulation.mappings import LazyItems
 from gazelle.simulation.robot import Robot, RobotHost, SensorUnit
 from gazelle.simulation.scheduled_plugin import ScheduledPlugin
@@ -47,7 +47,7 @@ class EntityManager:
             )
         self._simulation.engine.spawn(model)
         try:
-            robot = self.adopt(model, namespace)
+            robot = self.make_handle(model, namespace)
         except Exception:
             self.delete(model.name)
             raise
@@ -59,7 +59,7 @@ class EntityManager:
         found = (each.extension for each in self._kinds.values() if each is not None)
         return next((each for each in found if isinstance(each, kind)), None)
 
-    def adopt_all(self, models: Sequence[Model]) -> None:
+    def make_handles(self, models: Sequence[Model]) -> None:
         """Make the handles of models in the engine, and start their plugins.
 
         Those that a kind of world runs without a plugin can wait until their handle is needed.
@@ -72,17 +72,17 @@ class EntityManager:
             kind = self._kinds[model.kind]
             if kind is not None and is_plain(model, kind):
                 self._awaited[model.name] = model
-                self.robots.put_off(model.name)
+                self.robots.register_lazily(model.name)
             else:
                 made.append((model, self._handle(model, "")))
         for model, robot in made:
-            adopt(self._simulation, model, robot, self._kinds[model.kind])
+            start_plugins(self._simulation, model, robot, self._kinds[model.kind])
 
-    def adopt(self, model: Model, namespace: str) -> Robot:
+    def make_handle(self, model: Model, namespace: str) -> Robot:
         """Make the handle of a model in the engine, and start its plugins."""
         self._start_kinds((model,))
         robot = self._handle(model, namespace)
-        adopt(self._simulation, model, robot, self._kinds[model.kind])
+        start_plugins(self._simulation, model, robot, self._kinds[model.kind])
         return robot
 
     def _handle(self, model: Model, namespace: str) -> Robot:
@@ -105,7 +105,7 @@ class EntityManager:
         """Make the handle of a model that was deferred."""
         with self._simulation.lock:
             model = self._awaited.pop(name, None)
-            return self.robots[name] if model is None else self.adopt(model, "")
+            return self.robots[name] if model is None else self.make_handle(model, "")
 
     def delete(self, name: str) -> None:
         """Delete a model from every world, with its plugins.

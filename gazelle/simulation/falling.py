@@ -42,7 +42,7 @@ class FallWatch:
         self._links: LinkRows | None = None
         self._lowest: Floats = np.zeros(0)
 
-    def look(self, now_ns: int) -> None:
+    def check(self, now_ns: int) -> None:
         """Check for falling models, once in a simulated second."""
         period = now_ns // _PERIOD_NS
         if period == self._period:

@@ -15,7 +15,7 @@ from gazelle.kinematics.tree import FARTHEST
 # Parameters of several numbers, which are not one an axis.
 VECTORS = ("gravity", "link_centre", "link_inertia", "wheel_slip")
 
-# A quaternion's largest number is taken as it is up to so many decades from one.
+# A quaternion's largest number is taken as it is up to this number of decades from one.
 _FAR_FROM_UNIT = 100.0
 
 _MOST_STEPS = 2**31 - 1
@@ -64,7 +64,7 @@ def one_world(world: int, nworld: int) -> int:
     """Return the index of a world.
 
     Raises:
-        SimulationError: There is no such world, or it is no int.
+        SimulationError: There is no such world, or it is not an int.
     """
     try:
         index = operator.index(world)
@@ -122,7 +122,7 @@ def numbers(what: str, values: ArrayLike, width: int, count: int, *, alike: bool
 def placement(
     name: str, position: ArrayLike, quaternion: ArrayLike, count: int
 ) -> tuple[Floats, Floats]:
-    """Return a valid position and quaternion for so many worlds.
+    """Return a valid position and quaternion for a given number of worlds.
 
     Raises:
         SimulationError: They are not finite, too far away, no orientation, or of another shape.
@@ -135,14 +135,14 @@ def placement(
     if not largest.all():
         raise SimulationError(
             f"the orientation of '{name}' must not be all zeros",
-            hint="no turn is (0, 0, 0, 1): x, y, z, w",
+            hint="the identity is (0, 0, 0, 1): x, y, z, w",
         )
     # So that neither very large nor very small numbers lose their squares.
     return place, turn / largest if (np.abs(np.log10(largest)) > _FAR_FROM_UNIT).any() else turn
 
 
 def motion(name: str, linear: ArrayLike, angular: ArrayLike, count: int) -> tuple[Floats, Floats]:
-    """Return a valid linear and angular velocity for so many worlds.
+    """Return a valid linear and angular velocity for a given number of worlds.
 
     Raises:
         SimulationError: They are not finite, or of another shape.
@@ -176,7 +176,7 @@ def steps(count: int) -> int:
     try:
         whole = operator.index(count)
     except TypeError:
-        raise SimulationError(f"cannot step {count} times: that is no int") from None
+        raise SimulationError(f"cannot step {count} times: that is not an int") from None
     if whole < 0:
         raise SimulationError(f"cannot step {whole} times; time goes forward only")
     if whole > _MOST_STEPS:
@@ -193,7 +193,9 @@ def duration(seconds: float) -> float:
     try:
         possible = 0.0 <= seconds <= LONGEST_RUN
     except TypeError:
-        raise SimulationError(f"cannot run for {seconds!r}: that is no time in seconds") from None
+        raise SimulationError(
+            f"cannot run for {seconds!r}: that is not a time in seconds"
+        ) from None
     if not possible:
         raise SimulationError(
             f"cannot run for {seconds} s; time goes forward only, and {LONGEST_RUN:g} s at most"

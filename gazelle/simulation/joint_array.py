@@ -66,7 +66,7 @@ class JointArray:
             chosen: Mask of joints, shape (joints,); all if None.
 
         Raises:
-            SimulationError: The velocities are of another shape, or one is no number.
+            SimulationError: The velocities are of another shape, or one is not a number.
         """
         try:
             velocities = np.broadcast_to(np.asarray(velocity, np.float64), self._shape)

@@ -161,7 +161,7 @@ class JointHandle:
             max_effort: Of all axes or of each [N or N m], shape () or (axes,).
 
         Raises:
-            EngineError: It has no axis that a motor could turn, or an effort cannot be.
+            EngineError: It has no axis that a motor could turn, or an effort is invalid.
         """
         self._engine.add_motor(self.name, max_effort)
 
@@ -217,7 +217,7 @@ class JointHandle:
             worlds: Worlds; all if None.
 
         Raises:
-            EngineError: A value cannot be, or there is no motor; nothing is changed.
+            EngineError: A value is invalid, or there is no motor; nothing is changed.
             SimulationError: The lower limit would be above the upper.
         """
         given = {

@@ -72,7 +72,7 @@ class LinkHandle:
 
         Raises:
             EngineError: The link is fixed to the world.
-            SimulationError: A value cannot be, or both a quaternion and a heading are given.
+            SimulationError: A value is invalid, or both a quaternion and a heading are given.
         """
         self.approach(position, orientation_of(quaternion, yaw), worlds)
 
@@ -101,7 +101,7 @@ class LinkHandle:
         part that its joint allows.
 
         Raises:
-            SimulationError: A value cannot be.
+            SimulationError: A value is invalid.
         """
         some = chosen(worlds, self._engine.nworld)
         twist = motion(self.name, linear, angular, size_of(some, self._engine.nworld))
@@ -180,7 +180,7 @@ class LinkHandle:
             worlds: Worlds; all if None.
 
         Raises:
-            EngineError: The link does not move, or a value cannot be.
+            EngineError: The link does not move, or a value is invalid.
         """
         if isinstance(inertia, Inertia):
             i = inertia

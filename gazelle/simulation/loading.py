@@ -33,12 +33,14 @@ def _plugins_on(link: Link) -> Iterator[description.Plugin]:
         yield from sensor.plugins
 
 
-def adopt(simulation: RobotHost, model: Model, robot: Robot, kind: WorldKind | None = None) -> None:
+def start_plugins(
+    simulation: RobotHost, model: Model, robot: Robot, kind: WorldKind | None = None
+) -> None:
     """Start the plugins of a model that the engine has, in file order.
 
     Args:
         simulation: Runs.
-        model: Model to adopt.
+        model: Model of the plugins.
         robot: Its handle.
         kind: Runs it, in place of some of its plugins; None for models of no special kind.
     """

@@ -63,7 +63,7 @@ class LazyItems(MutableMapping[str, T], Generic[T]):
         self._make = make
         self._items: dict[str, T | None] = {}
 
-    def put_off(self, name: str) -> None:
+    def register_lazily(self, name: str) -> None:
         """Register an item to be made later."""
         self._items[name] = None
 

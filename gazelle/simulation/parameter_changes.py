@@ -20,7 +20,7 @@ def set_parameters(
     parameters: Mapping[str, ArrayLike | None],
     worlds: Worlds | None,
 ) -> None:
-    """Set several parameters, or none of them if one cannot be."""
+    """Set several parameters, or none of them if one is invalid."""
     engine = simulation.engine
     some = chosen(worlds, simulation.nworld)
     changes = {kind: values for kind, values in parameters.items() if values is not None}

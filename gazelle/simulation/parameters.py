@@ -49,7 +49,7 @@ class Parameter:
             worlds: Worlds; all if None.
 
         Raises:
-            EngineError: There is nothing of that name, or a value cannot be.
+            EngineError: There is nothing of that name, or a value is invalid.
             SimulationError: There are more or fewer values.
         """
         engine = self._simulation.engine

@@ -301,7 +301,7 @@ class PhysicsProperties:
         """Set several properties at once, by the names of this class's attributes.
 
         Raises:
-            SimulationError: There is no such property, or a value cannot be.
+            SimulationError: There is no such property, or a value is invalid.
             EngineError: The engine cannot do it; nothing is changed.
         """
         for name, value in values.items():

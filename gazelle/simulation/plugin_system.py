@@ -29,7 +29,7 @@ class InStepWork:
     Attributes:
         kernels: Updated in each step, in order; none while there is nothing to do.
         until_ns: Time of Python's next update of the system [ns]; infinite for never.
-        lasting: Whether this holds, and ``settle`` may wait, until something is done to the system
+        lasting: Whether this holds, and ``sync`` may wait, until something is done to the system
             (``SystemsInStep.invalidate``). Else the system is queried again after some steps.
     """
 
@@ -82,7 +82,7 @@ class PluginSystem(Generic[P]):
         """
         return None
 
-    def settle(self) -> None:
+    def sync(self) -> None:
         """Take over what ``in_step`` computed in steps."""
 
     def measure(self, plugins: Sequence[P]) -> Sequence[Any]:

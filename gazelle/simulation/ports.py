@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Worlds
-from gazelle.engines.limits import MAX_WORLDS, whole_number
+from gazelle.engines.limits import MAX_WORLDS, integer
 from gazelle.errors import SimulationError, UnknownNameError, did_you_mean
 from gazelle.simulation.inputs import chosen, size_of
 from gazelle.simulation.settings import Setting, Tuning
@@ -41,7 +41,7 @@ class TwistInput(StatePart):
         topic: Topic name from the file.
 
     Raises:
-        EngineError: There cannot be so many worlds.
+        EngineError: The number of worlds is invalid.
 
     Attributes:
         steers: Whether it takes turning for the angle of steered wheels [rad], not for a rate.
@@ -50,7 +50,7 @@ class TwistInput(StatePart):
     steers = False
 
     def __init__(self, nworld: int, topic: str) -> None:
-        whole_number("the number of worlds", nworld, 1, MAX_WORLDS)
+        integer("the number of worlds", nworld, 1, MAX_WORLDS)
         self.topic = topic
         self._revision = np.zeros(1, np.int64)
         self.linear: Floats = np.zeros((nworld, 3))
@@ -61,7 +61,7 @@ class TwistInput(StatePart):
         """Counts commands, so that a drive sees that there is a new one."""
         return int(self._revision[0])
 
-    def keep_in(
+    def store_in(
         self, linear: Floats, angular: Floats, revision: NDArray[np.int64] | None = None
     ) -> None:
         """Store commands in other arrays from now on, such as columns of a system.
@@ -98,7 +98,7 @@ class TwistInput(StatePart):
             worlds: Worlds; all if None.
 
         Raises:
-            SimulationError: A value is no number, not finite, or of another shape.
+            SimulationError: A value is not a number, not finite, or of another shape.
         """
         some = chosen(worlds, len(self.linear))
         rows: slice | Worlds = slice(None) if some is None else some
@@ -110,17 +110,17 @@ class TwistInput(StatePart):
             else:
                 command[rows] = 0.0
                 command[rows, axis] = values
-        self._revision[0] += 1  # several times as fast as the whole array
+        self._revision[0] += 1  # several times faster than writing the whole array
 
     def _checked(self, given: ArrayLike, count: int) -> Floats:
-        """Return numbers or vectors of so many worlds."""
+        """Return numbers or vectors of a given number of worlds."""
         try:
             values = np.asarray(given, np.float64)
         except (TypeError, ValueError, OverflowError):
             raise SimulationError(
                 f"the command on '{self.topic}' must be numbers, not {given!r}"
             ) from None
-        # One pass finds that all are finite; squares of very large ones are not.
+        # The sum of squares is finite if all values are, in one pass; very large values are checked below.
         if not math.isfinite(np.vdot(values, values)) and not np.isfinite(values).all():
             raise SimulationError(f"the command on '{self.topic}' is not finite: {values}")
         if values.shape == (count,):
@@ -312,10 +312,10 @@ class Output(StatePart, Generic[T]):
     def publish(self) -> None:
         """Compute the value and hand it to all subscribers, if there are any."""
         if self._listeners:
-            self.hand(self._produce())
+            self.publish_computed(self._produce())
 
     @between_steps
-    def hand(self, value: T) -> None:
+    def publish_computed(self, value: T) -> None:
         """Publish a value that was computed already."""
         self._last = value
         for listener in tuple(self._listeners):

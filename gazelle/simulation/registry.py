@@ -117,7 +117,7 @@ def _import(plugin: description.Plugin) -> type[BasePlugin]:
         )
     if not _is_plugin(found):
         raise SimulationError(
-            f"'{plugin.filename}' is no plugin class",
+            f"'{plugin.filename}' is not a plugin class",
             source=plugin.source,
             hint="subclass gazelle.simulation's WorldPlugin, ModelPlugin or SensorPlugin",
         )
@@ -131,7 +131,9 @@ def _is_plugin(value: object) -> bool:
 def _load(point: EntryPoint) -> type[BasePlugin]:
     loaded = point.load()
     if not (isinstance(loaded, type) and issubclass(loaded, BasePlugin)):
-        raise SimulationError(f"the entry point '{point.name}' ({point.value}) is no plugin class")
+        raise SimulationError(
+            f"the entry point '{point.name}' ({point.value}) is not a plugin class"
+        )
     return loaded
 
 

@@ -35,7 +35,7 @@ class Replay(Closeable):
         simulation: Simulation.
 
     Raises:
-        SimulationError: The file is no recording, a damaged one, or one of another version.
+        SimulationError: The file is not a recording, a damaged one, or one of another version.
     """
 
     def __init__(self, path: str | Path, *, threads: int | None = None) -> None:
@@ -44,7 +44,7 @@ class Replay(Closeable):
         first = lines[0]
         version = first.get("version")
         if first.get("format") != FORMAT or not isinstance(version, int):
-            raise SimulationError("this is no recording of a run", file=str(path))
+            raise SimulationError("this is not a recording of a run", file=str(path))
         if version != VERSION:
             raise SimulationError(
                 f"this recording has version {version}, this Gazelle reads version {VERSION}",
@@ -67,11 +67,11 @@ class Replay(Closeable):
         """Advance to the end of the next recorded run of steps; False when there is none.
 
         Args:
-            most: Make so many of its steps at most; the state is compared at its end.
+            most: Advance by at most this number of its steps; the state is compared at its end.
 
         Raises:
             SimulationError: The state is not the recorded one, or the recording is damaged.
-            DivergenceError: A world broke down, and the recorded run did not continue from there.
+            DivergenceError: A world diverged where the recorded run did not continue.
         """
         while not self.done:
             event = self._events[self._next]
@@ -176,12 +176,14 @@ def _read(path: Path) -> list[dict[str, Any]]:
         except ValueError:
             if lines and number < len(texts):
                 raise SimulationError(
-                    "the recording is damaged: this line is no JSON", file=str(path), line=number
+                    "the recording is damaged: this line is not valid JSON",
+                    file=str(path),
+                    line=number,
                 ) from None
             break  # cut off
         lines.append(line if isinstance(line, dict) else {})
     if not lines:
-        raise SimulationError("this is no recording of a run", file=str(path))
+        raise SimulationError("this is not a recording of a run", file=str(path))
     return lines
 
 

@@ -1,4 +1,4 @@
-"""A model in a running simulation: where it is, its links, joints, sensors and ports."""
+"""The class `Robot`: a model in a running simulation, with its links, joints, sensors and ports."""
 
 from __future__ import annotations
 
@@ -267,7 +267,7 @@ class Robot(Ports):
             worlds: Worlds; all if None.
 
         Raises:
-            SimulationError: A value cannot be, or both a quaternion and a heading are given.
+            SimulationError: A value is invalid, or both a quaternion and a heading are given.
         """
         engine = self.simulation.engine
         some, turned = chosen(worlds, engine.nworld), orientation_of(quaternion, yaw)
@@ -285,7 +285,7 @@ class Robot(Ports):
         One without links has nothing that could move, and stays.
 
         Raises:
-            SimulationError: A value cannot be.
+            SimulationError: A value is invalid.
         """
         engine = self.simulation.engine
         some = chosen(worlds, engine.nworld)

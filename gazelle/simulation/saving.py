@@ -96,13 +96,13 @@ def _header_of(arrays: Mapping[str, NDArray[Any]], simulation: RobotHost) -> dic
         SimulationError: There is none, or it is of another simulation.
     """
     if not {"header", "engine"} <= arrays.keys():
-        raise SimulationError("these bytes are no snapshot: they lack a header")
+        raise SimulationError("these bytes are not a snapshot: they lack a header")
     try:
         header = json.loads(arrays["header"].tobytes())
     except ValueError:
         header = None
     if not isinstance(header, dict) or header.get("format") != _FORMAT:
-        raise SimulationError(f"these bytes are no snapshot of the form {_FORMAT}")
+        raise SimulationError(f"these bytes are not a snapshot of the form {_FORMAT}")
     if header.get("names") != _names(simulation):
         raise SimulationError("the snapshot is of other models than those that run", hint=_HINT)
     rows = arrays["engine"].shape[:1]
@@ -192,7 +192,7 @@ def _read(data: bytes) -> dict[str, NDArray[Any]]:
             index = json.loads(archive["index"].tobytes())
             return _arrays_of(archive["data"].tobytes(), index)
     except BROKEN:
-        raise SimulationError("these bytes are no snapshot, or a damaged one") from None
+        raise SimulationError("these bytes are not a snapshot, or a damaged one") from None
 
 
 def _arrays_of(data: bytes, index: list[tuple[str, str, list[int]]]) -> dict[str, NDArray[Any]]:

@@ -58,10 +58,10 @@ class ScheduledSystem:
             self._fail(error, "when getting its kernel")
             return None
 
-    def settle(self) -> None:
+    def sync(self) -> None:
         """Take over what was computed in steps."""
         try:
-            self._system.settle()
+            self._system.sync()
         except Exception as error:  # noqa: BLE001  a plugin's fault is not the simulation's
             self._fail(error, "after steps")
 
@@ -115,7 +115,7 @@ class ScheduledSystem:
         system = self._system
         try:
             if system.kernel is not None:
-                system.kernel.bring(0, self._nworld * system.kernel.rows, clock.now_ns)
+                system.kernel.update_from_python(0, self._nworld * system.kernel.rows, clock.now_ns)
             elif not self._subscribed or system.active:  # else it was queried already
                 system.update(clock.now)
         except Exception as error:  # noqa: BLE001  a plugin's fault is not the simulation's

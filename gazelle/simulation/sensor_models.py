@@ -114,7 +114,7 @@ def _unknown(_: SensorMount) -> SensorModel:
 
 def _lidar(mount: SensorMount) -> SensorModel:
     if mount.sensor.lidar is None:
-        raise EngineError("it says nothing about its rays")
+        raise EngineError("it has no <ray> or <lidar> element")
     return LidarModel(mount.sensor.lidar, *_on_link(mount))
 
 
@@ -167,7 +167,7 @@ def _force_torque(mount: SensorMount) -> SensorModel:
     if joint is None:
         raise EngineError("it is on a link, not on a joint")
     if mount.static:
-        raise EngineError("its model never moves, so its joints bear no load")
+        raise EngineError("its model is static, so its joints carry no load")
     name = f"{scope}::{joint.name}"
     parent = "world" if joint.parent == "world" else f"{scope}::{joint.parent}"
     return ForceTorqueModel(

@@ -64,7 +64,7 @@ class SampledSensor:
 
     @checked(SimulationError)
     @between_steps
-    def slow_to(self, rate: float) -> None:
+    def limit_rate(self, rate: float) -> None:
         """Measure no more often than a rate [Hz]; 0 changes nothing."""
         if rate > 0.0 and not 0.0 < self.schedule.rate <= rate:
             self._stand_alone()
@@ -195,7 +195,7 @@ class SampledSensor:
         values: Any = own.pop("values", None)
         stale = np.asarray(own.pop("stale"), np.intp)
         if stale.size and not 0 <= stale.min() <= stale.max() < self._simulation.nworld:
-            raise IndexError("a reading belongs to a world that is not there")
+            raise IndexError("a reading belongs to an unknown world")
         self._stale = stale
         self._model.restore(own)
         self._stamp, self._awake = int(stamp[0]), bool(stamp[1])
@@ -311,4 +311,4 @@ class SensorOutput(Output[Any]):
             name = f"the topic '{self.topic}' of '{self._sensor.name}'"
             warn_of_fault(None, name, "and is published no more", error)
             return
-        self.hand(value)
+        self.publish_computed(value)

@@ -1,4 +1,4 @@
-"""One running set of worlds."""
+"""The class `Simulation`: running worlds, their robots and time."""
 
 from __future__ import annotations
 
@@ -115,7 +115,7 @@ class Simulation(Closeable):
         with self.lock:
             for plugin in loaded.plugins:
                 load_world_plugin(self, plugin)
-            self.entities.adopt_all(loaded.models)
+            self.entities.make_handles(loaded.models)
         self._engine.prepare()
 
     @property
@@ -169,7 +169,7 @@ class Simulation(Closeable):
         """Advance by physics steps, also while paused.
 
         Raises:
-            SimulationError: The simulation is closed, or ``count`` is no number of steps.
+            SimulationError: The simulation is closed, or ``count`` is not a number of steps.
             DivergenceError: The state of some worlds became infinite; see ``on_fault``.
         """
         self.loop.advance(inputs.steps(count), lambda: False)
@@ -182,7 +182,7 @@ class Simulation(Closeable):
             rate: Real-time factor to keep to; None means as fast as possible.
 
         Raises:
-            SimulationError: The simulation is paused or closed, or the time cannot be.
+            SimulationError: The simulation is paused or closed, or the duration is invalid.
             DivergenceError: As ``step``.
         """
         if self.paused:
@@ -236,7 +236,7 @@ class Simulation(Closeable):
             namespace: Put before its topics.
 
         Raises:
-            SimulationError: The name is taken, or it or the pose cannot be; nothing is changed.
+            SimulationError: The name is taken, or it or the pose is invalid; nothing is changed.
             FormatError: The file cannot be read.
             EngineError: The model cannot be simulated.
         """
@@ -303,10 +303,10 @@ class Simulation(Closeable):
                 a soft weld of MuJoCo's; None for as stiff as can be.
 
         Raises:
-            EngineError: Neither link moves, they are the same, or the time constant cannot be.
+            EngineError: Neither link moves, they are the same, or the time constant is invalid.
         """
         some = inputs.chosen(worlds, self.nworld)
-        # Without a time constant as it was always called, so that records of runs stay the same.
+        # A call without time constant is recorded as before, so that older recordings stay equal.
         softly = () if settling is None else (settling,)
         with self.lock:
             self.engine.attach(parent.name, child.name, some, *softly)
@@ -334,7 +334,7 @@ class Simulation(Closeable):
         with self.lock:
             self.engine.update_world(with_light(self.world, name, changes))
 
-    # -- seeing ------------------------------------------------------------------------
+    # -- cameras -----------------------------------------------------------------------
 
     def render(self, view: View, world: int = 0) -> NDArray[np.uint8]:
         """Render one world without a graphics card, shape (height, width, 3).
@@ -385,7 +385,7 @@ class Simulation(Closeable):
 
     @property
     def faults(self) -> Sequence[Fault]:
-        """All worlds that broke down so far."""
+        """Reports of all worlds that diverged so far."""
         return tuple(self._faults.faults)
 
     def close(self) -> None:
@@ -400,7 +400,7 @@ class Simulation(Closeable):
             with self.lock:
                 self._close()
         except SimulationError:
-            if not self.lock.closed:  # else another thread was faster
+            if not self.lock.closed:  # another thread may have closed it
                 raise
 
     def _close(self) -> None:

@@ -99,7 +99,7 @@ def between_steps(method: Callable[Concatenate[S, P], T]) -> Callable[Concatenat
     @functools.wraps(method)
     def locked(self: S, /, *args: P.args, **options: P.kwargs) -> T:
         lock = self._lock
-        if lock is None or lock.is_mine():
+        if lock is None or lock.is_owner():
             return method(self, *args, **options)
         with lock:
             return method(self, *args, **options)

@@ -34,11 +34,11 @@ from gazelle.simulation.systems_in_step import SystemsInStep
 
 CLOSED = "the simulation is closed"
 
-# For how long the physics is stepped at once, at most, while other threads make requests, and while
-# there are none: what is done between pieces finds its memory cold, and slows the physics down [s].
+# Longest uninterrupted run of physics steps [s], while other threads make requests and while none
+# do. Work between runs evicts the physics' data from the processor's caches and slows it down.
 _PIECE, _LONG_PIECE = 0.003, 0.02
 
-# A thread that made a request this recently will make another [s].
+# A thread that made a request this recently is expected to make another [s].
 _LATELY = 1.0
 
 
@@ -108,7 +108,7 @@ class StepLoop:
 
         Raises:
             SimulationError: The simulation is closed, or another thread closes it.
-            DivergenceError: Worlds broke down, and that is to raise.
+            DivergenceError: The state of a world diverged, and ``on_fault`` is "raise".
         """
         lock = self._simulation.lock
         lock.acquire()
@@ -116,7 +116,7 @@ class StepLoop:
             self._run(count, stop)
         finally:
             self.cut = False
-            if lock.is_mine():  # else a thread to which it was lent waits for this one
+            if lock.is_owner():  # else the lock was yielded to a thread that waits for this one
                 try:
                     self._simulation.events.rested.emit()
                 finally:
@@ -135,7 +135,7 @@ class StepLoop:
             if remaining > 0 and lock.waiting:
                 self.cut = False
                 self._shorten()
-                lock.lend()
+                lock.yield_lock()
 
     def _advance(self, most: int) -> int:
         """Run what is due, then step towards the next due time; returns the steps."""
@@ -152,7 +152,7 @@ class StepLoop:
         # Nothing is due within a single step: no plugin need be queried.
         steps = 1 if most == 1 else steps_to_next(plugins, plan.sensors, clock, most)
         if steps > 1:
-            # What broke down starts over within a second, and what falls is looked for.
+            # Diverged worlds are reset within a second, and falling models are looked for.
             steps = min(steps, clock.steps_to((clock.now_ns // NANOSECONDS + 1) * NANOSECONDS))
             if self.in_step.kernels:
                 steps = min(steps, self._steps_in_step())
@@ -191,7 +191,7 @@ class StepLoop:
                 fresh = [each for each in late if updated.isdisjoint(each.members())]
                 update_plugins(fresh, simulation.clock)
                 plugins += late
-            # One of them may have woken a sensor, added or removed others, or changed the engine.
+            # An update may have activated a sensor, added or removed plugins, or changed the engine.
             if simulation.lock.closed or self._is_settled():
                 return plugins
             for each in plugins:
@@ -223,7 +223,7 @@ class StepLoop:
             update_sensors(self._plan.sensors, now_ns)
         for listener in tuple(self._listeners):
             listener()
-        self._falls.look(now_ns)
+        self._falls.check(now_ns)
 
     def _renew(self) -> StepPlan:
         """Return the step plan, renewed if it is outdated."""
@@ -235,7 +235,7 @@ class StepLoop:
                 entities.plugins,
                 entities.sensors,
                 self._simulation.nworld,
-                # What follows moves before sensors measure, so that Python comes between.
+                # Kinematic followers move before sensors measure, so Python has to run in between.
                 followed=bool(self.followers),
             )
             self.in_step.plan(self._plan.late)
@@ -268,7 +268,7 @@ class StepLoop:
     def _follow(self) -> None:
         """Take over the due times of systems that ran in steps."""
         if self._plan.late:
-            self.in_step.settle()
+            self.in_step.sync()
         for schedule, system in zip(self._schedules, self._systems, strict=True):
             if system.due != schedule.due_ns:
                 schedule.follow(system.due)
@@ -279,10 +279,10 @@ class StepLoop:
         """Make as many steps at once as are not too long; returns their number."""
         steps, begin, worked = self._most, time.perf_counter(), time.process_time()
         self._step(steps)
-        # Less where other programs have the processor: they do not wait for the end of a piece.
+        # Shorter runs if other programs use the processor, so that requests wait less.
         took = min(time.perf_counter() - begin, time.process_time() - worked)
         longest = _PIECE if begin - self._requested < _LATELY else _LONG_PIECE
-        # A slow piece may be chance, a fast one may be rest: double at most, halve at least.
+        # One run may be slow or fast by chance: change the length by a factor of two at most.
         if took * 2.0 < longest:
             self._most *= 2
         elif took > longest:
@@ -298,7 +298,7 @@ class StepLoop:
         self._requested = now
 
     def _give_up(self, error: DivergenceError, count: int) -> int:
-        """Start worlds over that broke down, as ``on_fault`` says, when the others are there.
+        """Reset diverged worlds, as ``on_fault`` says, once the other worlds are at the same step.
 
         That is when Python comes next, within a second, so that it does not depend on where steps are cut.
 

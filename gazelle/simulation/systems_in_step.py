@@ -99,7 +99,7 @@ class SystemsInStep:
         self.soonest_ns = min((found.until_ns for _, found in known), default=math.inf)
         self._brief = [entry for entry, found in known if not found.lasting]
 
-    def settle(self) -> None:
+    def sync(self) -> None:
         """Take over what systems with transient answers computed in steps."""
         for entry in self._brief:
-            entry.settle()
+            entry.sync()

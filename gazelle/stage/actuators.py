@@ -27,17 +27,19 @@ class Actuator:
     Args:
         simulation: Runs.
         robot: Its robot.
-        rider: Model that it moves.
+        actuator: Model that it moves.
 
     Attributes:
         position: [m or rad], shape (nworld,); to be read.
     """
 
-    def __init__(self, simulation: StageBodies, robot: StageRobot, rider: MountedActuator) -> None:
-        self._simulation, self._robot, self._rider = simulation, robot, rider
-        self._device = rider.device
+    def __init__(
+        self, simulation: StageBodies, robot: StageRobot, actuator: MountedActuator
+    ) -> None:
+        self._simulation, self._robot, self._actuator = simulation, robot, actuator
+        self._device = actuator.device
         count = simulation.nworld
-        self.position = np.full(count, rider.device.start)
+        self.position = np.full(count, actuator.device.start)
         self._goal, self._towards = np.zeros(count), np.zeros(count, np.bool_)
 
     def set_speed(self, speed: float, worlds: Worlds | None = None) -> None:
@@ -77,7 +79,7 @@ class Actuator:
 
     def follow(self) -> None:
         """Move the device to the pose of its robot."""
-        fleet, base = self._simulation.fleet, self._rider.base
+        fleet, base = self._simulation.fleet, self._actuator.base
         pose = fleet.pose[:, self._robot.index]
         along, aside, z, yaw = self._offsets()
         turn = math.cos(base.yaw), math.sin(base.yaw)
@@ -93,7 +95,7 @@ class Actuator:
             axis=1,
         )
         height = fleet.heights[:, self._robot.index] + base.z + z
-        self._simulation.engine.place_body(self._rider.body, where, height=height)
+        self._simulation.engine.place_body(self._actuator.body, where, height=height)
 
     def _offsets(self) -> tuple[Floats, Floats, Floats, Floats]:
         """Return the offset from its place at position zero, in the frame of that."""
@@ -119,7 +121,7 @@ class Actuator:
 def actuators_of(simulation: StageBodies) -> dict[int, list[Actuator]]:
     """Return the actuators of each robot that has some, by its index."""
     return {
-        robot.index: [Actuator(simulation, robot, rider) for rider in robot.riders]
+        robot.index: [Actuator(simulation, robot, actuator) for actuator in robot.mounted_actuators]
         for robot in simulation.robots
-        if robot.riders
+        if robot.mounted_actuators
     }

@@ -82,7 +82,7 @@ def with_wander(world: World, controller: str = "wander") -> World:
         raise SimulationError(f"there is no controller '{controller}'", hint=hint)
     if stage_world(world) is None:
         raise SimulationError(
-            f"only robots of Stage files wander, and '{world.name}' is none",
+            f"only robots of Stage files can wander, and '{world.name}' is not a Stage file",
             hint="robots of other files drive by 'cmd_vel', from --ros or the page of --view",
         )
     return replace(world, models=tuple(_driven(model, controller) for model in world.models))
@@ -143,7 +143,7 @@ def _make_rangers(
             groups.setdefault(ranger.places[0][0], []).append((robot, ranger))
     if blind:
         warnings.warn(
-            f"'{kind.__name__.lower()}' needs a ranger; these have none and stand: {', '.join(blind[:5])}",
+            f"'{kind.__name__.lower()}' needs a ranger; these robots have none and do not move: {', '.join(blind[:5])}",
             SimulationWarning,
             stacklevel=2,
         )

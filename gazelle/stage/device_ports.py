@@ -51,11 +51,12 @@ def devices_of(robot: StageRobot) -> Iterator[tuple[type[Any], str, int]]:
             if kind in _outputs and kind is not StageActuator:
                 yield kind, placed.name.partition(".")[2] or placed.name, seen[kind]
                 seen[kind] += 1
-    for which, rider in enumerate(robot.riders):
-        yield StageActuator, rider.model.name.removeprefix("/"), which
+    for which, actuator in enumerate(robot.mounted_actuators):
+        yield StageActuator, actuator.model.name.removeprefix("/"), which
 
 
 def _of_all_worlds(fleet: StageFleet, read: Callable[[int], Any]) -> Callable[[], tuple[Any, ...]]:
+    """Return a function that calls ``read`` with each world and returns all readings."""
     return lambda: tuple(read(world) for world in range(fleet.nworld))
 
 

@@ -60,7 +60,7 @@ class Devices:
             for gripper in grippers:
                 gripper.reset(worlds)
 
-    def take_over(
+    def copy_from(
         self, other: Devices, pairs: Iterable[tuple[int, int]], things: Mapping[int, int]
     ) -> None:
         """Copy the state of other robots' devices.

@@ -74,7 +74,7 @@ class DriveState:
         self.odometry.reset(worlds)
         self.remember(worlds)
 
-    def take_over(self, other: DriveState, pairs: Iterable[tuple[int, int]]) -> None:
+    def copy_from(self, other: DriveState, pairs: Iterable[tuple[int, int]]) -> None:
         """Copy the state of another.
 
         Robots that both have are given by their indices there and here.

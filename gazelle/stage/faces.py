@@ -44,7 +44,7 @@ def prism(points: Iterable[Point], low: float, high: float) -> Floats:
 
 
 def in_tiles(faces: Floats, most: int) -> list[Floats]:
-    """Return faces in groups of neighbours, so many at most.
+    """Return faces in groups of neighbours, at most a given number each.
 
     Halved along the longer side of where their middles are, again and again, so that a camera can
     leave out what is aside.

@@ -94,7 +94,7 @@ class Surroundings:
         return self._simulation.robots[robot].model
 
     def place(self, body: int, world: int) -> StagePose:
-        """Return the pose of a robot or, after all robots, of a thing."""
+        """Return the pose of a robot or, after all robots, of an object."""
         fleet = self._simulation.fleet
         x, y, yaw = fleet.pose[world, body].tolist()
         return StagePose(x, y, float(fleet.heights[world, body]), yaw)
@@ -148,17 +148,21 @@ class Surroundings:
 
 
 def models_of(simulation: StageBodies) -> list[StageModel]:
-    """Return the model of each body: robots, things and placed models, then actuators' parts."""
+    """Return the model of each body: robots, objects and placed models, then actuators' parts."""
     own = [next(robot.bodies)[1] for robot in simulation.robots]
     others = [StageModel("model", "")] * _other_bodies(simulation)
-    riders = [rider.model for robot in simulation.robots for rider in robot.riders]
-    return [*own, *simulation.things, *simulation.placed, *others, *riders]
+    mounted_actuators = [
+        actuator.model for robot in simulation.robots for actuator in robot.mounted_actuators
+    ]
+    return [*own, *simulation.things, *simulation.placed, *others, *mounted_actuators]
 
 
 def _other_bodies(simulation: StageBodies) -> int:
     """Return the number of bodies that are of no Stage file."""
-    riders = sum(len(robot.riders) for robot in simulation.robots)
-    known = len(simulation.robots) + len(simulation.things) + len(simulation.placed) + riders
+    mounted_actuators = sum(len(robot.mounted_actuators) for robot in simulation.robots)
+    known = (
+        len(simulation.robots) + len(simulation.things) + len(simulation.placed) + mounted_actuators
+    )
     return simulation.fleet.nbody - known
 
 

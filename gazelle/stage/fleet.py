@@ -74,10 +74,10 @@ class StageFleet(StageDevices):
             self._bind()
             robots, rangers, motion, devices, things = before
             pairs = _pairs([r.name for r in robots], [r.name for r in self._robots])
-            self._rangers.take_over(rangers)
-            self._motion.take_over(motion, pairs)
+            self._rangers.copy_from(rangers)
+            self._motion.copy_from(motion, pairs)
             kept = dict(_pairs([t.name for t in things], [t.name for t in self._things]))
-            self._devices.take_over(devices, pairs, kept)
+            self._devices.copy_from(devices, pairs, kept)
             if [r.name for r in robots] == [r.name for r in self._robots]:
                 for controller in self.controllers:
                     controller.rebind()
@@ -184,7 +184,7 @@ class StageFleet(StageDevices):
 
     @property
     def thing_poses(self) -> Floats:
-        """x, y [m] and heading [rad] of the things, shape (nworld, nthing, 3); to be read."""
+        """x, y [m] and heading [rad] of the objects, shape (nworld, nthing, 3); to be read."""
         poses, first = self.fleet.pose, len(self._robots)
         return poses[:, first : first + len(self._things)]
 
@@ -237,15 +237,15 @@ class StageFleet(StageDevices):
 
     @property
     def stalled(self) -> NDArray[np.bool_]:
-        """True where a robot's last move was not made, as it would have hit something."""
+        """True for robots whose last move was blocked by an obstacle."""
         self.refresh()
         return self._stalled
 
     @property
     def bumped(self) -> NDArray[np.bool_]:
-        """True where a move was not made since this was last cleared; writable, as ``stalled``.
+        """True for robots with a blocked move since this was last set to False; writable.
 
-        It is kept from the first access.
+        Recording starts at the first access.
         """
         self.refresh()
         return self._motion.watch()

@@ -1,4 +1,4 @@
-"""Grippers: paddles that close on a thing, a lift, beams between the paddles.
+"""Grippers: paddles that close on an object, a lift, beams between the paddles.
 
 The figures, and the order of what happens in an update, are those of Stage 4.3: paddles and
 lift move by a twentieth of their way each ``update_interval``.
@@ -46,7 +46,7 @@ class GripperState:
         paddles: From 0, open, to 1, closed.
         lift: From 0, down, to 1, up.
         beams: Whether the inner and the outer beam between the paddles are broken.
-        carried: Name of the held thing, or None.
+        carried: Name of the held object, or None.
     """
 
     paddles: float
@@ -68,7 +68,7 @@ class Gripper:
     Attributes:
         paddles: From 0, open, to 1, closed, shape (nworld,).
         lift: From 0, down, to 1, up, shape (nworld,).
-        carried: Index of the held thing, or -1, shape (nworld,).
+        carried: Index of the held object, or -1, shape (nworld,).
     """
 
     def __init__(
@@ -158,7 +158,7 @@ class Gripper:
         }
 
     def find(self, things: Mapping[int, int]) -> None:
-        """Set new indices of things; a deleted one is no longer held."""
+        """Set new indices of objects; a deleted one is no longer held."""
         self.carried[:] = [things.get(thing, _NONE) for thing in self.carried.tolist()]
 
     def _move(self, world: int, step: float) -> None:
@@ -175,7 +175,7 @@ class Gripper:
         self.paddles[world] = min(max(position, least), most)
 
     def _take(self, world: int) -> None:
-        """Grip the thing that the inner side of a paddle touches."""
+        """Grip the object that the inner side of a paddle touches."""
         back = self._model.size.x * (0.5 - self._device.paddle_size[0])
         edge, tip = self._edge(world), self._model.size.x / 2.0
         for side in (edge, -edge):
@@ -188,14 +188,14 @@ class Gripper:
                 return
 
     def _carry(self, world: int) -> None:
-        """Move the held thing with the gripper, out of reach of all others."""
+        """Move the held object with the gripper, out of reach of all others."""
         body, at = self._body(int(self.carried[world])), self._place(world)
         self._simulation.engine.place_body(
             body, (at.x, at.y, at.yaw), np.array([world]), height=_NOWHERE
         )
 
     def _release(self, world: int) -> None:
-        """Place the held thing between the paddles if it fits, else before them."""
+        """Place the held object between the paddles if it fits, else before them."""
         thing = int(self.carried[world])
         model, size = self._simulation.things[thing], self._model.size
         radius = math.hypot(model.size.x, model.size.y) / 2.0
@@ -224,7 +224,7 @@ class Gripper:
         return StagePose(x, y, self._robot.model.pose.z, yaw).then(self._pose)
 
     def _met(self, world: int, line: Floats) -> int:
-        """Return the thing that a line in the gripper's frame crosses or ends in.
+        """Return the object that a line in the gripper's frame crosses or ends in.
 
         -1 without one.
         """

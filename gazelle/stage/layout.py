@@ -34,7 +34,7 @@ Key = tuple[int, int, int]
 class StageLayout(KindLayout):
     """Models of Stage files in a fleet.
 
-    Bodies are robots, then things, then kinematic models; there is a rider for each actuator.
+    Bodies are robots, then objects, then kinematic models; there is an extra body for each actuator.
 
     Attributes:
         robots: In file order.
@@ -64,7 +64,7 @@ def layout_of(
     Args:
         models: Those of Stage files.
         kinematic: Names of kinematic models.
-        others: Bodies that come between ``bodies`` and ``riders``.
+        others: Bodies that come between ``bodies`` and ``extra_bodies``.
     """
     own = [(model.name, stage) for model in models if (stage := _now(model)) is not None]
     robots = [(name, model) for name, model in own if model.position is not None]
@@ -165,7 +165,7 @@ class _Shape:
 
 @dataclass(slots=True)
 class _Maker:
-    first_rider: int = 0
+    first_actuator: int = 0
     layout: StageLayout = field(default_factory=StageLayout)
     shapes: dict[Key, _Shape] = field(default_factory=dict)
     fans: dict[Fan, int] = field(default_factory=dict)
@@ -185,16 +185,16 @@ class _Maker:
             self.ranger(index, name, placed, sensors, views)
             for placed, sensors, views in shape.rangers
         ]
-        riders = []
+        mounted_actuators = []
         if shape.moved:
             for placed, device, base in _actuators(next(replace(model, pose=StagePose()).walk())):
-                rider, more = self.rider(index, name, placed, device, base)
-                riders.append(rider)
+                actuator, more = self.actuator(index, name, placed, device, base)
+                mounted_actuators.append(actuator)
                 rangers += more
-        robot = StageRobot(index, name, model, tuple(rangers), tuple(riders))
+        robot = StageRobot(index, name, model, tuple(rangers), tuple(mounted_actuators))
         self.layout.robots.append(robot)
 
-    def rider(
+    def actuator(
         self,
         robot: int,
         name: str,
@@ -207,12 +207,12 @@ class _Maker:
         model = replace(
             placed.model, name=f"/{whole}", pose=StagePose(), device=replace(device, start=0.0)
         )
-        body = self.first_rider + len(self.layout.riders)
+        body = self.first_actuator + len(self.layout.extra_bodies)
         shape = self.shape(model)
         at = self.layout.bodies[robot]
         own = StagePose(at.pose[0], at.pose[1], at.z, at.pose[2])
         x, y, z, yaw = own.then(base).then(StagePose(*device.offset))
-        self.layout.riders.append(Body(shape.parts, (x, y, yaw), z, family=-1 - robot))
+        self.layout.extra_bodies.append(Body(shape.parts, (x, y, yaw), z, family=-1 - robot))
         rangers = [
             self.ranger(body, whole, there, sensors, views)
             for there, sensors, views in shape.rangers

@@ -115,7 +115,7 @@ class Rangers:
         for stream in self._streams:
             stream.reseed(seed, worlds)
 
-    def take_over(self, other: Rangers) -> None:
+    def copy_from(self, other: Rangers) -> None:
         """Copy the random numbers' state of others."""
         for own, old in zip(self._streams, other._streams, strict=False):
             own.keys[:], own.counters[:] = old.keys, old.counters

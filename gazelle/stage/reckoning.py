@@ -17,7 +17,7 @@ PI = cython.declare(cython.double, 3.141592653589793)
 
 @cython.cclass
 class Reckoning(System):
-    """Those who reckon, a row each.
+    """Robots with odometry, a row each.
 
     Args:
         velocity: In the bodies' own frames: x, y [m/s], yaw [rad/s], shape (nworld * stride, 3).

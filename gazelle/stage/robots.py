@@ -69,21 +69,21 @@ class StageRobot:
         model: Settings of the file.
         rangers: Those mounted on it directly or indirectly, in file order; those on
             actuators last.
-        riders: Bodies of its actuators.
+        mounted_actuators: Bodies of its actuators.
     """
 
     index: int
     name: str
     model: StageModel
     rangers: tuple[Ranger, ...] = ()
-    riders: tuple[MountedActuator, ...] = ()
+    mounted_actuators: tuple[MountedActuator, ...] = ()
 
     @property
     def bodies(self) -> Iterator[tuple[int, StageModel]]:
         """Indices and models: itself without its actuators, then the bodies of those."""
-        yield self.index, without_actuators(self.model) if self.riders else self.model
-        for rider in self.riders:
-            yield rider.body, rider.model
+        yield self.index, without_actuators(self.model) if self.mounted_actuators else self.model
+        for actuator in self.mounted_actuators:
+            yield actuator.body, actuator.model
 
     @property
     def position(self) -> StagePosition:

@@ -19,7 +19,7 @@ _GAP = 0.5  # to what is ahead [m]
 
 
 class Rounds(RangerController):
-    """Drives to the place where the next robot of a tour started, and on; waits for who is ahead.
+    """Drives to the place where the next robot of a tour started, and on; waits for the robot ahead.
 
     Starting places are free of walls, and a shortest tour crosses itself nowhere, so robots meet only
     one behind the other.

@@ -28,7 +28,7 @@ def stage_of(simulation: Simulation) -> StageFleet:
     fleet = simulation.extension(StageFleet)
     if fleet is None:
         raise SimulationError(
-            "this is no world of Stage in the plane", hint='use a Stage file and engine="planar"'
+            "this is not a world of Stage in the plane", hint='use a Stage file and engine="planar"'
         )
     return fleet
 
@@ -71,7 +71,7 @@ class StageSimulation(Closeable):
         loaded = world if isinstance(world, World) else formats.load(world)
         if stage_world(loaded) is None:
             place = loaded.source.file if loaded.source is not None else None
-            raise SimulationError("this is no world of Stage", file=place, hint="use Simulation")
+            raise SimulationError("this is not a world of Stage", file=place, hint="use Simulation")
         integrator = "euler" if euler else loaded.profile.integrator
         profile = replace(loaded.profile, integrator=integrator, speculative_contacts=sweep)
         loaded = with_profile(loaded, profile)

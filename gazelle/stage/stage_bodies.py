@@ -12,7 +12,7 @@ from gazelle.stage.robots import StageRobot
 
 
 class StageBodies(ABC):
-    """All robots and things of Stage files, and where they are.
+    """All robots and objects of Stage files, and where they are.
 
     Attributes:
         engine: Moves them.

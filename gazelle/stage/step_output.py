@@ -44,7 +44,7 @@ class StepOutput(Output[T]):
 
         def finish() -> None:
             end()
-            if not self.wanted and self._unsubscribe is not None:
+            if not self.has_subscribers and self._unsubscribe is not None:
                 self._unsubscribe()
                 self._unsubscribe = None
 

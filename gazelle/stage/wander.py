@@ -35,7 +35,7 @@ class Wander(RangerController):
         self, simulation: StageFleet, robots: list[tuple[StageRobot, Ranger]], scanner: int
     ) -> None:
         super().__init__(simulation, robots, scanner)
-        self._mood = np.zeros((len(self._bodies), 2), np.int64)
+        self._turn_state = np.zeros((len(self._bodies), 2), np.int64)
         key = Stream(simulation.seed, f"wander/{scanner}", 1).keys[0]
         self._seed = int(key >> np.uint64(1))
 
@@ -59,15 +59,15 @@ class Wander(RangerController):
     def reset(self, worlds: Worlds | None = None) -> None:
         """Stop turning."""
         rows = slice(None) if worlds is None else worlds
-        self._mood.reshape(self._simulation.nworld, -1, 2)[rows] = 0
+        self._turn_state.reshape(self._simulation.nworld, -1, 2)[rows] = 0
 
     def state(self) -> dict[str, NDArray[np.generic]]:
         """Return the remaining turning times."""
-        return {"mood": self._mood.copy()}
+        return {"turn_state": self._turn_state.copy()}
 
     def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
         """Restore what ``state`` returned."""
-        self._mood[:] = state["mood"]
+        self._turn_state[:] = state["turn_state"]
 
     def _law(self, ranges: Floats) -> Wandering:
         """Return the law for these ranges; kept while they are written to the same place."""
@@ -77,7 +77,7 @@ class Wander(RangerController):
                 ranges.reshape(-1, ranges.shape[-1]),
                 self._sensors,
                 self._bodies,
-                self._mood,
+                self._turn_state,
                 nworld=self._simulation.nworld,
                 seed=self._seed,
                 cruise=CRUISE,

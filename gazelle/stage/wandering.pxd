@@ -5,7 +5,7 @@ from gazelle.native.system cimport System
 cdef class Wandering(System):
     cdef double[:, ::1] commands, ranges
     cdef long long[::1] sensors, owners
-    cdef public long long[:, ::1] mood
+    cdef public long long[:, ::1] turn_state
     cdef double cruise, creep, turn, front, stop
     cdef long long patience, seed
     cpdef void choose(self, Py_ssize_t first, Py_ssize_t last, long long time)

@@ -32,7 +32,7 @@ class Wandering(System):
             turns at least.
 
     Attributes:
-        mood: Steps for which each still turns, and 1 or -1 for the way.
+        turn_state: Steps for which each still turns, and 1 or -1 for the way.
     """
 
     def __init__(
@@ -41,19 +41,19 @@ class Wandering(System):
         ranges: Floats,
         sensors: Ints64,
         owners: Ints64,
-        mood: Ints64,
+        turn_state: Ints64,
         *,
         nworld: int,
         seed: int,
-        **manner: Any,
+        **settings: Any,
     ) -> None:
         System.__init__(self, max(1, len(owners) // nworld))
         self.commands, self.ranges = commands, ranges
         self.sensors, self.owners = sensors, owners
-        self.mood, self.seed = mood, seed
-        self.cruise, self.creep, self.turn = manner["cruise"], manner["creep"], manner["turn"]
-        self.front, self.stop = manner["front"], manner["stop"]
-        self.patience = manner["patience"]
+        self.turn_state, self.seed = turn_state, seed
+        self.cruise, self.creep, self.turn = settings["cruise"], settings["creep"], settings["turn"]
+        self.front, self.stop = settings["front"], settings["stop"]
+        self.patience = settings["patience"]
 
     def choose(self, first: int, last: int, time: int) -> None:
         """Choose the commands of all robots, without the interpreter's lock."""
@@ -67,18 +67,18 @@ class Wandering(System):
             ahead, right, left = room(self.ranges, self.sensors[i])
             halt = min(right, left) < self.stop
             near = halt or ahead < self.front
-            if near and self.mood[i, 0] < 1:
+            if near and self.turn_state[i, 0] < 1:
                 drawn = uniform(stream(self.seed, i, time), 0) * self.patience
-                self.mood[i, 0] = self.patience + cython.cast(cython.longlong, drawn)
-                self.mood[i, 1] = -1 if left < right else 1
+                self.turn_state[i, 0] = self.patience + cython.cast(cython.longlong, drawn)
+                self.turn_state[i, 1] = -1 if left < right else 1
             self.commands[b, 1] = 0.0
-            if near or self.mood[i, 0] > 0:
+            if near or self.turn_state[i, 0] > 0:
                 self.commands[b, 0] = 0.0 if halt else self.creep
-                self.commands[b, 2] = self.turn * self.mood[i, 1]
-                self.mood[i, 0] -= 1
+                self.commands[b, 2] = self.turn * self.turn_state[i, 1]
+                self.turn_state[i, 0] -= 1
             else:
                 self.commands[b, 0], self.commands[b, 2] = self.cruise, 0.0
-                self.mood[i, 0] = 0
+                self.turn_state[i, 0] = 0
 
 
 def room(ranges: Floats, m: int) -> tuple[float, float, float]:

@@ -120,7 +120,7 @@ class Actor:
         if self.memory is not None:
             if memory is None:
                 hint = "give it the memory that Actor.begin(copies) makes"
-                raise TaskError("this policy acts by what it remembers", hint=hint)
+                raise TaskError("this policy is recurrent", hint=hint)
             x = self.memory.outputs(x, memory)
         for weight, bias in zip(self.weights[:-1], self.biases[:-1], strict=True):
             x = x @ weight
@@ -285,7 +285,7 @@ def _refuse_unfit(actor: Actor) -> None:
         outputs = actor.outputs(np.zeros((1, actor.inputs), np.float32), actor.begin(1))
         actions = actor.to_env(actor.mode(outputs))
     if outputs.ndim != 2 or len(actions) != 1:
-        raise ValueError(f"its layers give outputs of shape {outputs.shape}")
+        raise ValueError(f"its layers have outputs of shape {outputs.shape}")
 
 
 def _feature_arrays(features: Features) -> dict[str, npt.NDArray[Any]]:

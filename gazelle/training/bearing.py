@@ -43,7 +43,7 @@ class Bearing:
     """Goal position, x and y [m]."""
 
     def check(self, entries: int) -> None:
-        """Raise TaskError unless observations of so many entries have these."""
+        """Raise TaskError unless observations of a given number of entries have these."""
         for entry in (self.x, self.y, 0 if self.yaw is None else self.yaw):
             if not 0 <= entry < entries:
                 hint = f"observations have entries 0 to {entries - 1}"
@@ -80,7 +80,7 @@ def bearing_of(value: Mapping[str, Any] | Bearing) -> Bearing:
     """Return a bearing of its values by name, as in JSON.
 
     Raises:
-        TaskError: One is missing or unknown, or cannot be.
+        TaskError: One is missing or unknown, or is invalid.
     """
     if isinstance(value, Bearing):
         return value
@@ -95,4 +95,4 @@ def bearing_of(value: Mapping[str, Any] | Bearing) -> Bearing:
         return Bearing(**entries, yaw=None if yaw is None else int(yaw), goal=(x, y))
     except (KeyError, TypeError, ValueError, AttributeError) as error:
         hint = 'such as {"x": 5, "y": 6, "yaw": 7, "goal": [2.0, 1.0]}'
-        raise TaskError(f"{value!r} is no bearing", hint=hint) from error
+        raise TaskError(f"{value!r} is not a bearing", hint=hint) from error

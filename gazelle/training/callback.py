@@ -123,7 +123,7 @@ class TrainingCallback(BaseCallback):  # type: ignore[misc]  # untyped base
         }
 
     def set_state(self, state: dict[str, Any], steps: int) -> None:
-        """Restore a checkpoint made after so many steps."""
+        """Restore a checkpoint made after a given number of steps."""
         self.episodes.set_state(state["episodes"])
         self.logged_at, self.saved_at = int(state["logged_at"]), steps
         self._seconds_before = float(state["seconds"])

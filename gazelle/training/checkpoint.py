@@ -95,7 +95,7 @@ def read_checkpoint(folder: Path, learner: Learner) -> dict[str, Any]:
             kind = type(learner._last_lstm_states)  # noqa: SLF001
             learner._last_lstm_states = kind(*map(_tensors, state["recurrent"]))  # noqa: SLF001
         if "ahead" in state:
-            learner.go_on_ahead(state["ahead"])
+            learner.resume_update(state["ahead"])
         if "memory" in state:
             learner.replay_buffer.set_state(state["memory"])
         _restore_environment(learner, state)
@@ -133,7 +133,7 @@ def _restore_environment(learner: Learner, state: dict[str, Any]) -> None:
     if state["environment"] is None:
         warnings.warn(
             "this environment cannot save its state: its episodes start again, "
-            "so the run goes on well but not bit for bit as without the break",
+            "so the resumed run is not bit for bit equal to an uninterrupted one",
             SimulationWarning,
             stacklevel=2,
         )

@@ -116,7 +116,7 @@ class Claim:
         return predicted_range([trial.rate for trial in self.trials])
 
     def predicted_for(self, episodes: float) -> tuple[float, float] | None:
-        """Return `predicted` for an evaluation of so many independent attempts."""
+        """Return `predicted` for an evaluation of a given number of independent attempts."""
         return predicted_range([trial.rate for trial in self.trials], episodes)
 
     @property

@@ -62,7 +62,7 @@ def _parted(text: str) -> tuple[TaskModule, str]:
     """Return the module, imported, and the name in it."""
     module, colon, name = text.rpartition(":")
     if not colon:
-        raise TaskError(f"'{text}' is no demonstrator", hint="expected module:function")
+        raise TaskError(f"'{text}' is not a demonstrator", hint="expected module:function")
     (found,) = load_all([module])
     return found, name
 
@@ -78,7 +78,7 @@ def shown_actions(
     actions = np.asarray(demonstrator(rows), np.float32)
     if actions.shape != shape or not np.isfinite(actions).all():
         raise TaskError(
-            f"the demonstrator gave an array of shape {actions.shape}, not finite ones of {shape}",
-            hint="it takes observations in rows and gives a row of actions for each",
+            f"the demonstrator returned an array of shape {actions.shape}, not finite ones of {shape}",
+            hint="it must return one row of actions per row of observations",
         )
     return actions

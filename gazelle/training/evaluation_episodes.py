@@ -74,7 +74,7 @@ class EpisodesPlayed:
 
 
 def play_episodes(setup: EvaluationSetup, copies: int, episodes: int, seed: int) -> EpisodesPlayed:
-    """Run the policy until so many episodes ended, fixed in advance for each copy."""
+    """Run the policy until a given number of episodes ended, fixed in advance for each copy."""
     env = make_task(setup.task, copies, **setup.options)
     try:
         period = control_period(env)
@@ -153,7 +153,7 @@ def play_with_workers(
         if result is None:
             raise TaskError(
                 f"{TRIES} workers ended in the same episodes",
-                hint="their last words are above; is there enough memory?",
+                hint="their output is above; is there enough memory?",
             )
         found[part.number] = result
 

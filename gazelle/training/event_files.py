@@ -83,7 +83,7 @@ class _EventFile:
 
 
 def trim_events(folder: Path, steps: int) -> None:
-    """Remove the events after so many steps, and incomplete ones.
+    """Remove the events after a given number of steps, and incomplete ones.
 
     Args:
         folder: Holds the files; there may be none.

@@ -48,7 +48,7 @@ class GoalReplay:
         found = np.asarray(self.reward(*goals, infos), np.float32)
         if found.shape != (count,):
             raise TaskError(
-                f"compute_reward gave an array of shape {found.shape} for {count} goals",
+                f"compute_reward returned an array of shape {found.shape} for {count} goals",
                 hint="it must take many goals at once, as in norm(achieved - desired, axis=-1)",
             )
         return found

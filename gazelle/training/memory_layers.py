@@ -54,7 +54,7 @@ class MemoryLayers:
         return len(self.hidden[0])
 
     def empty(self, copies: int) -> PolicyMemory:
-        """Return the memory at the beginning of episodes in so many copies."""
+        """Return the memory at the beginning of episodes in a given number of copies."""
         shape = (len(self.biases), copies, self.units)
         return PolicyMemory(np.zeros(shape, np.float32), np.zeros(shape, np.float32))
 

@@ -11,7 +11,7 @@ from typing import Any
 from gazelle.errors import TaskError
 
 _MOST = 2**53
-"""More is no number that JSON keeps."""
+"""More is not a number that JSON keeps."""
 MAX_WIDTH = 2**16
 """Neurons of a hidden layer."""
 MAX_LAYERS = 100
@@ -23,7 +23,7 @@ def check_numbers(values: Any) -> None:
     """Check the fields of a dataclass.
 
     Raises:
-        TaskError: One is no number where it must be, is negative, or is too large.
+        TaskError: One is not a number where it must be, is negative, or is too large.
     """
     for each in dataclasses.fields(values):
         value, kind = getattr(values, each.name), str(each.type)
@@ -31,7 +31,7 @@ def check_numbers(values: Any) -> None:
             continue
         kind = kind.removesuffix(" | None")
         if kind == "int":
-            _check_whole(each.name, value, _MOST)
+            _check_integer(each.name, value, _MOST)
         elif kind == "float":
             _check_real(each.name, value)
         elif kind == "str" and not isinstance(value, str):
@@ -44,14 +44,14 @@ def check_numbers(values: Any) -> None:
             raise TaskError(f"{each.name} must be names with values, not {value!r}")
 
 
-def _check_whole(name: str, value: Any, most: int) -> None:
+def _check_integer(name: str, value: Any, most: int) -> None:
     least = 0 if name in _FROM_ZERO else 1
     try:
         fits = not isinstance(value, bool) and least <= operator.index(value) <= most
     except TypeError:
         fits = False
     if not fits:
-        raise TaskError(f"{name} must be a whole number from {least} to {most}, not {value!r:.60}")
+        raise TaskError(f"{name} must be an int from {least} to {most}, not {value!r:.60}")
 
 
 def _check_real(name: str, value: Any) -> None:
@@ -65,6 +65,6 @@ def _check_real(name: str, value: Any) -> None:
 
 def _check_sizes(name: str, values: Any) -> None:
     if not isinstance(values, tuple) or len(values) > MAX_LAYERS:
-        raise TaskError(f"{name} must be up to {MAX_LAYERS} whole numbers, not {values!r:.60}")
+        raise TaskError(f"{name} must be up to {MAX_LAYERS} ints, not {values!r:.60}")
     for value in values:
-        _check_whole(name, value, MAX_WIDTH)
+        _check_integer(name, value, MAX_WIDTH)

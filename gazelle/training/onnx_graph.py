@@ -47,7 +47,7 @@ def onnx_model(actor: Actor, *, metadata: dict[str, str] | None = None) -> onnx.
     """
     if actor.memory is not None:
         hint = "--format numpy writes one that load_actor reads: give Actor.act its memory"
-        raise TaskError("a policy with a memory cannot be written as ONNX yet", hint=hint)
+        raise TaskError("a recurrent policy cannot be exported as ONNX yet", hint=hint)
     graph = _Graph()
     name = "observation"
     if actor.limits is not None:

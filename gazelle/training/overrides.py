@@ -32,7 +32,7 @@ def with_values(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
             For an algorithm with `LibrarySettings`, any argument of its class.
 
     Raises:
-        TaskError: There is no such value, the algorithm does not support it, or it cannot be.
+        TaskError: There is no such value, the algorithm does not support it, or it is invalid.
     """
     fields = {each.name for each in dataclasses.fields(Recipe)} - _OWN
     library = isinstance(recipe.settings, LibrarySettings)
@@ -62,7 +62,7 @@ def with_values(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
     try:
         return dataclasses.replace(recipe, **outer)
     except TypeError as error:
-        raise TaskError(f"a value of the recipe cannot be: {error}") from error
+        raise TaskError(f"a value of the recipe is invalid: {error}") from error
 
 
 def supporting_algorithms(name: str) -> tuple[str, ...]:

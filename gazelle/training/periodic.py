@@ -44,7 +44,7 @@ class PeriodicEvaluation:
         return every > 0 and steps - self.evaluated_at >= every
 
     def check(self, actor: Actor, steps: int) -> Evaluation:
-        """Evaluate a policy after so many control steps, and keep it if it is the best."""
+        """Evaluate a policy after a given number of control steps, and keep it if it is the best."""
         config = self.run.config
         options = config.options | evaluation_options(config.task, config.options)
         found = evaluate(
@@ -68,7 +68,7 @@ class PeriodicEvaluation:
         return {"evaluated_at": self.evaluated_at, "best": self._best}
 
     def set_state(self, state: dict[str, Any], steps: int) -> None:
-        """Restore a checkpoint made after so many steps; later rows are dropped."""
+        """Restore a checkpoint made after a given number of steps; later rows are dropped."""
         self.evaluated_at = int(state["evaluated_at"])
         best = state["best"]
         self._best = None if best is None else (float(best[0]), float(best[1]))

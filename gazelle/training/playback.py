@@ -67,7 +67,7 @@ class Playback(Closeable):
             self._memory.forget(step.begun)
         self._obs = step.obs
 
-    def look(self) -> Picture:
+    def render(self) -> Picture:
         """Render the environment as it is now, shape (height, width, 3).
 
         Raises:

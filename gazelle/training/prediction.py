@@ -58,7 +58,7 @@ def predicted_range(
 
 
 def _variance(size: float) -> float:
-    """Return the variance of the angle of a share of so many attempts."""
+    """Return the variance of the angle of a share of a given number of attempts."""
     return 1.0 / (4.0 * size + 2.0)
 
 

@@ -17,7 +17,7 @@ class Progress(Protocol):
         """Start the display, with some control steps done already."""
 
     def update(self, done: int, summary: dict[str, float]) -> None:
-        """Update the display after so many control steps.
+        """Update the display after a given number of control steps.
 
         The summary is `EpisodeLog.summary`'s.
         """

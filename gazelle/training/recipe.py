@@ -164,7 +164,7 @@ class Recipe:
     """Share of what is learnt from that gets a goal which was reached later: of tasks with goals,
     by algorithms with a replay memory."""
     cut_observations: float | None = None
-    """Entries that are normalised by what was observed are cut so many standard deviations from their
+    """Entries that are normalised by what was observed are cut a given number of standard deviations from their
     mean, so that what flies off once in a while does not make all else look small; None: not cut."""
     hindsight_redraw: float = 0.0
     """Share of those steps that is drawn again, up to twice, where that goal was reached before the
@@ -236,7 +236,7 @@ def _check_settings(algo: str, settings: Settings) -> None:
     check_supported(algo, settings)
     if settings.imitation and settings.demonstrator is None:
         hint = "name a demonstrator, or set imitation to 0"
-        raise TaskError("there is nobody to imitate", hint=hint)
+        raise TaskError("imitation needs a demonstrator", hint=hint)
 
 
 def _settings_of(algo: str) -> type[Settings]:
@@ -271,7 +271,7 @@ def recipe_from_dict(values: dict[str, Any]) -> Recipe:
 
 def _checked(kind: type[Any], values: Any) -> dict[str, Any]:
     if not isinstance(values, dict):
-        raise TaskError(f"a {kind.__name__} is names with values, not {values!r:.60}")
+        raise TaskError(f"a {kind.__name__} must be names with values, not {values!r:.60}")
     known = {field.name for field in dataclasses.fields(kind)}
     for key in values:
         if key not in known:

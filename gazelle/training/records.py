@@ -104,7 +104,7 @@ class Ledger:
         self._reported: set[str] = set()
 
     def expect(self, episodes: npt.NDArray[np.int64]) -> None:
-        """Expect so many more episodes of each copy, shape (copies,), in restarted worlds."""
+        """Expect this number of further episodes of each copy, shape (copies,), in restarted worlds."""
         self._first_world += -(-len(self.left) // self._together)
         self.left, self._expected = episodes.copy(), episodes.copy()
         self._resets += 1

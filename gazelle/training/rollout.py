@@ -32,7 +32,7 @@ class CutOff:
 
 @dataclass(frozen=True, slots=True)
 class Rollout:
-    """So many steps of so many copies; arrays have shape (steps, copies, ...) unless said.
+    """Steps of all copies; arrays have shape (steps, copies, ...) unless said.
 
     Attributes:
         observations: Observations of the actions.
@@ -67,7 +67,7 @@ def play(
     rng: np.random.Generator,
     on_step: Callable[[], bool] | None = None,
 ) -> Rollout | None:
-    """Run a policy for so many control steps, from the environment's present state.
+    """Run a policy for a given number of control steps, from the environment's present state.
 
     Args:
         env: The copies of the task.

@@ -54,7 +54,7 @@ def pack_run(run: str | Path, file: str | Path) -> Path:
     if target.suffix != ".zip":
         raise TaskError(f"a run is written as .zip, not as '{target.suffix}'")
     if not _NAME.fullmatch(name):
-        raise FormatError(f"'{name}' is no name for a run in an archive", file=str(run))
+        raise FormatError(f"'{name}' is not a name for a run in an archive", file=str(run))
     old = {path.name for path in found.checkpoints()[:-1]}
     try:
         with (
@@ -123,7 +123,7 @@ def _members(archive: zipfile.ZipFile) -> tuple[str, dict[str, zipfile.ZipInfo]]
         kind = stat.S_IFMT(member.external_attr >> 16)
         known = inner == _CONFIG or _OTHERS.fullmatch(inner)
         if not _NAME.fullmatch(name) or not known or kind not in (0, stat.S_IFREG):
-            raise FormatError(f"it has '{member.filename}', which is no file of a run")
+            raise FormatError(f"it has '{member.filename}', which is not a file of a run")
         names.add(name)
         if inner in members:
             raise FormatError(f"it has '{member.filename}' twice")
@@ -134,7 +134,7 @@ def _members(archive: zipfile.ZipFile) -> tuple[str, dict[str, zipfile.ZipInfo]]
 
 
 def _unpacked(archive: zipfile.ZipFile, members: dict[str, zipfile.ZipInfo], folder: Path) -> Run:
-    """Unpack the files; the configuration last, as a folder without it is no run."""
+    """Unpack the files; the configuration last, as a folder without it is not a run."""
     (folder / "checkpoints").mkdir()
     for inner, member in sorted(members.items(), key=lambda pair: pair[0] == _CONFIG):
         target = folder / inner

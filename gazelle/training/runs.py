@@ -157,7 +157,7 @@ class Run:
         file = self.folder / ("best.npz" if best else "policy.npz")
         if best and not file.is_file():
             hint = "train with --eval-every N to have the best policy kept"
-            raise FormatError("the run kept no best policy", file=str(self.folder), hint=hint)
+            raise FormatError("the run has no best policy", file=str(self.folder), hint=hint)
         if not file.is_file():
             hint = "it stopped before its first checkpoint; train again"
             raise FormatError("the run has no policy", file=str(self.folder), hint=hint)

@@ -1,4 +1,4 @@
-"""Train a policy for a task, or continue with a run that was stopped."""
+"""Training sessions: train a policy for a task, or resume a stopped run."""
 
 from __future__ import annotations
 
@@ -203,7 +203,7 @@ def resume(
         found = found.changed(recipe=dataclasses.replace(found.config.recipe, steps=steps))
     if not found.config.sharded and (workers is not None or ray is not None):
         raise TaskError(
-            "the run was begun without workers", hint="leave out --workers and --ray to go on"
+            "the run was started without workers", hint="leave out --workers and --ray to go on"
         )
     limit_threads(threads)
     session = _Session(found.config, progress or NoProgress(), workers, ray)

@@ -42,7 +42,7 @@ class SweepPlan:
         """Read a plan from YAML or JSON.
 
         Raises:
-            FormatError: The file cannot be read, or says something that cannot be.
+            FormatError: The file cannot be read, or says something that is impossible.
         """
         try:
             values = bounded_yaml.safe_load(file.read_text(encoding="utf-8"))
@@ -50,7 +50,7 @@ class SweepPlan:
             raise FormatError(f"cannot read the sweep: {error}", file=str(file)) from error
         if not isinstance(values, dict) or not isinstance(values.get("parameters"), dict):
             hint = "expected 'parameters:' with low and high, or choices, of each"
-            raise FormatError("this is no sweep", file=str(file), hint=hint)
+            raise FormatError("this is not a sweep", file=str(file), hint=hint)
         for key in values:
             if key not in _KEYS:
                 hint = did_you_mean(str(key), _KEYS)
@@ -59,7 +59,7 @@ class SweepPlan:
             plan = cls(**values)
             plan.check()
         except (TaskError, TypeError) as error:
-            raise FormatError(f"this sweep cannot be: {error}", file=str(file)) from error
+            raise FormatError(f"this sweep is invalid: {error}", file=str(file)) from error
         return plan
 
     def check(self) -> None:

@@ -39,7 +39,7 @@ def rows_until(file: Path, column: str, steps: int) -> list[dict[str, str]]:
         steps: Rows beyond these are left out.
 
     Raises:
-        FormatError: A row has no such number, or this is no table.
+        FormatError: A row has no such number, or this is not a table.
     """
     if not file.exists():
         return []

@@ -26,7 +26,7 @@ def find_callbacks(texts: Iterable[str]) -> tuple[tuple[TaskModule, ...], tuple[
     for text in texts:
         module, colon, name = text.rpartition(":")
         if not colon:
-            raise TaskError(f"'{text}' is no callback", hint="expected module:Class")
+            raise TaskError(f"'{text}' is not a callback", hint="expected module:Class")
         (found,) = load_all([module])
         modules.append(found)
         names.append(f"{found.name}:{name}")
@@ -38,7 +38,7 @@ def make_callbacks(names: Iterable[str]) -> list[Any]:
     """Create callbacks; their modules were found before.
 
     Raises:
-        TaskError: One is not there, is no callback, or cannot be created without arguments.
+        TaskError: One is not there, is not a callback, or cannot be created without arguments.
     """
     made = []
     for text in names:
@@ -50,7 +50,7 @@ def make_callbacks(names: Iterable[str]) -> list[Any]:
             raise TaskError(f"{module} has no callback '{name}'", hint=hint)
         if not (isinstance(kind, type) and issubclass(kind, BaseCallback)):
             raise TaskError(
-                f"{text} is no callback",
+                f"{text} is not a callback",
                 hint="derive it from stable_baselines3.common.callbacks.BaseCallback",
             )
         try:

@@ -1,4 +1,4 @@
-"""A Gymnasium vector environment as Stable-Baselines3 wants it.
+"""A Gymnasium vector environment for Stable-Baselines3.
 
 Stable-Baselines3 has its own vector interface, older than Gymnasium's. This
 adapter steps all copies with one call and touches single copies only when

@@ -32,7 +32,7 @@ def bag_series(path: Path, fields: Sequence[str]) -> Series:
             ``/odom/twist/twist/linear/x`` or ``/scan/ranges/0``.
 
     Raises:
-        RosError: There is no such topic or field, or it is no number.
+        RosError: There is no such topic or field, or it is not a number.
     """
     with Bag(str(path)) as bag:
         topics = list(bag.get_type_and_topic_info().topics)
@@ -96,7 +96,7 @@ def _numbers(bag: Bag, topic: str, path: tuple[str, ...], start: float) -> tuple
         value = _at(entry.message, path)
         if not isinstance(value, bool | int | float | np.number):
             inside = ", ".join(getattr(value, "__slots__", ())) or type(value).__name__
-            raise RosError(f"{topic}/{'/'.join(path)} is no number", hint=f"it has: {inside}")
+            raise RosError(f"{topic}/{'/'.join(path)} is not a number", hint=f"it has: {inside}")
         times.append(entry.timestamp.to_sec() - start)
         values.append(float(value))
     return np.array(times), np.array(values)

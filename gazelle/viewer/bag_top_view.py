@@ -96,7 +96,7 @@ class BagTopView(FilmSource):
             self._next = next(self._messages, None)
         return self._next is not None
 
-    def look(self) -> Picture:
+    def render(self) -> Picture:
         """Render the map, then paths, plans, scans and robots."""
         canvas = Image.fromarray(self._paper())
         draw = ImageDraw.Draw(canvas)

@@ -34,7 +34,7 @@ class EpisodesPage(Closeable):
             simulation,
             port=port,
             worlds=1,
-            only_looking=True,
+            read_only=True,
             goals=goals,
             panels=(self._make_panel,),
         )

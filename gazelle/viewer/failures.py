@@ -25,7 +25,7 @@ _COLOURS: dict[str, Colour] = {
 }
 _PAPER, _WALL, _INK, _PALE = (250, 250, 248), (60, 60, 66), (40, 40, 44), (205, 210, 218)
 _SIDE = 800  # longer side of the plan [pixel]
-_FINER = 2  # drawn so many times larger, and made smaller: smooth edges
+_FINER = 2  # drawn larger by this factor, then reduced: smooth edges
 _HEAD, _EDGE = 70, 30  # of the picture: room for the legend, and around the plan [pixel]
 
 

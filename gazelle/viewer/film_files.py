@@ -68,7 +68,7 @@ def write_film(path: str | Path, pictures: Iterable[Picture], rate: float) -> in
         How many there were.
 
     Raises:
-        Error: The suffix is not a film's, the rate cannot be, there is no picture, they are too
+        Error: The suffix is not a film's, the rate is invalid, there is no picture, they are too
             many, or one cannot be in this film.
         MissingExtraError: MP4 is requested, and its writer is not installed.
     """

@@ -19,7 +19,7 @@ from gazelle.viewer.scene_camera import SceneCamera
 class FilmCamera(Protocol):
     """Camera that draws a simulation: a ``SceneCamera`` or a ``TopView``."""
 
-    def look(self) -> Picture:
+    def render(self) -> Picture:
         """Render the simulation now, shape (height, width, 3)."""
 
 
@@ -47,7 +47,7 @@ def film(
         The number of pictures.
 
     Raises:
-        Error: The suffix is not a film's, or a number cannot be.
+        Error: The suffix is not a film's, or a number is invalid.
         MissingExtraError: MP4 is requested, and its writer is not installed.
     """
     file = writable(path, FILMS)
@@ -85,7 +85,7 @@ def take_plan(
             such folder, or no such picture.
     """
     file = writable(path, STILLS)
-    picture = TopView(simulation, world=world, size=size, scans=scans).look()
+    picture = TopView(simulation, world=world, size=size, scans=scans).render()
     write_picture(file, picture)
     return picture
 
@@ -125,10 +125,10 @@ def shots(
 ) -> Iterator[Picture]:
     """Yield the first picture, and one after each period of simulated time [s]."""
     start = simulation.time
-    yield camera.look()
+    yield camera.render()
     for number in range(1, count + 1):
         # Towards a time of its own, so that no rounding adds up.
         ahead = start + number * period - simulation.time
         if ahead > 0.0:
             simulation.run(ahead)
-        yield camera.look()
+        yield camera.render()

@@ -40,7 +40,7 @@ def check_size(size: tuple[int, int], finer: int = 1) -> None:
 
 
 def check_rate(rate: float) -> None:
-    """Check that a film can have so many pictures a second.
+    """Check that a film can have a given number of pictures a second.
 
     Raises:
         Error: They are too few, or too many.
@@ -74,7 +74,7 @@ def check_picture(picture: Picture, file: Path) -> None:
     """Check that a file can hold a picture.
 
     Raises:
-        Error: It is no picture of bytes, or one of its sides is too long for the format.
+        Error: It is not a picture of bytes, or one of its sides is too long for the format.
     """
     shape = np.shape(picture)
     if len(shape) != 3 or shape[2] != 3 or 0 in shape or picture.dtype != np.uint8:

@@ -59,8 +59,8 @@ class LiveView(Closeable):
         world: The first world of a batch that is shown.
         worlds: Number of worlds shown beside each other; a few if None.
         port: Of the server; any free one if 0.
-        rate: Pictures a second at most.
-        only_looking: Whether nothing can be changed on the page.
+        rate: Pictures per second at most.
+        read_only: Whether nothing can be changed on the page.
         goals: Function that returns the goals of a task that runs in these worlds [m], shape
             (worlds * n, 2 or 3), world by world, or None; called between two steps.
         panels: Makers of further parts of the page.
@@ -81,7 +81,7 @@ class LiveView(Closeable):
         worlds: int | None = None,
         port: int = 0,
         rate: float = 20.0,
-        only_looking: bool = False,
+        read_only: bool = False,
         goals: GoalPlaces | None = None,
         panels: Sequence[Callable[[PageContext], PageLayer]] = (),
     ) -> None:
@@ -96,7 +96,7 @@ class LiveView(Closeable):
         self._server = PageServer(simulation.world.name or "Gazelle", port)
         self.url = self._server.url
         try:
-            self._begin(np.arange(world, world + count), only_looking=only_looking)
+            self._begin(np.arange(world, world + count), read_only=read_only)
         except BaseException:
             self._server.close()
             raise
@@ -129,7 +129,7 @@ class LiveView(Closeable):
             Error: The page is only to look at.
         """
         if self._log is None:
-            raise Error("a page that is only to look at has no log")
+            raise Error("a read-only page has no log")
         self._log.fill(replay)
 
     def close(self) -> None:
@@ -144,13 +144,11 @@ class LiveView(Closeable):
         for end in self._ends:
             end()
 
-    def _begin(self, worlds: Any, *, only_looking: bool) -> None:
+    def _begin(self, worlds: Any, *, read_only: bool) -> None:
         """Create everything on the page."""
         simulation, page = self._simulation, self._server.viser
         spots = spots_of(simulation, len(worlds))
-        self._context = context = PageContext(
-            simulation, page, worlds, spots, only_looking=only_looking
-        )
+        self._context = context = PageContext(simulation, page, worlds, spots, read_only=read_only)
         self._root = page.scene.add_frame(ROOT, show_axes=False)
         page.gui.main_panel.dock_right()
         self._server.light_up()
@@ -161,7 +159,7 @@ class LiveView(Closeable):
             tools = ModelTools(context)
             shapes = ShapeLayer(context, "shapes", on_batch=tools.watch)
             steering: list[PageLayer] = []
-            if not only_looking:
+            if not read_only:
                 steering = [
                     DriveControls(context, self._server),
                     JointSliders(context),
@@ -173,7 +171,7 @@ class LiveView(Closeable):
             with left.add_tab("Speed"):
                 speed = SpeedPlots(context)
             self._log: TimeLog | None = None
-            if not only_looking:
+            if not read_only:
                 with left.add_tab("Log"):
                     self._log = TimeLog(context)
                 steering.append(self._log)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterable
 from typing import Any
 
@@ -31,7 +32,7 @@ _BODIES: tuple[Colour, ...] = (
     (150, 90, 165),
     (60, 160, 170),
 )
-_FINER = 2  # drawn so many times larger, and made smaller: smooth edges
+_FINER = 2  # drawn larger by this factor, then reduced: smooth edges
 _FEW = 8  # robots up to which what they see is filled
 
 
@@ -69,7 +70,7 @@ class TopView:
         self._been: list[Floats] = []
         self._scanners: tuple[Fleet | None, list[Scanner]] = (None, [])
 
-    def look(self) -> Picture:
+    def render(self) -> Picture:
         """Render the world now, shape (height, width, 3), and extend the trails."""
         fleet = fleet_of(self._simulation)
         poses = fleet.pose[self._world].copy()
@@ -87,6 +88,11 @@ class TopView:
         for body in range(fleet.nbody):
             self._draw_body(draw, fleet, body, poses[body])
         return np.asarray(image.resize(self._size, Image.Resampling.BOX), np.uint8)
+
+    def look(self) -> Picture:
+        """Render the scene; deprecated, use `render`."""
+        warnings.warn(DeprecationWarning("TopView.look is called render now"), stacklevel=2)
+        return self.render()
 
     def forget(self) -> None:
         """Clear the trails."""

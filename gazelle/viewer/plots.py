@@ -176,7 +176,7 @@ def _draw_map(axes: Any, grid: OccupancyMap) -> None:
 
 
 def _figure(panels: int) -> Any:
-    """Return a figure with so many panels above each other."""
+    """Return a figure with a given number of panels above each other."""
     try:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+import warnings
 from collections.abc import Iterator
 
 import numpy as np
@@ -21,7 +22,7 @@ from gazelle.viewer.page.shapes import extent_of_world
 from gazelle.viewer.sight import distance_seen
 
 _GAMMA = 1.35  # lifts the shadows to what a screen shows well
-_FINER = 2  # drawn so many times larger, and made smaller: smooth edges
+_FINER = 2  # drawn larger by this factor, then reduced: smooth edges
 _FOV = 0.9  # horizontal [rad]
 _MARGIN = 1.06
 _ASIDE = np.array([-0.45, -0.75, 0.75])  # from where a whole world is looked at
@@ -69,10 +70,15 @@ class SceneCamera:
         self._dodges = bool(follow) and eye is None
         self._eye, self._target = self._usual(eye, target)
 
-    def look(self) -> Picture:
+    def render(self) -> Picture:
         """Return the present picture, shape (height, width, 3)."""
         with self._simulation.lock:
             return self._draw()
+
+    def look(self) -> Picture:
+        """Render the scene; deprecated, use `render`."""
+        warnings.warn(DeprecationWarning("SceneCamera.look is called render now"), stacklevel=2)
+        return self.render()
 
     def _draw(self) -> Picture:
         simulation = self._simulation

@@ -31,7 +31,7 @@ class FilmSource(Closeable):
         """Advance to a time after the start [s]; False when it is over."""
 
     @abstractmethod
-    def look(self) -> Picture:
+    def render(self) -> Picture:
         """Return the present picture, shape (height, width, 3)."""
 
     def close(self) -> None:
@@ -56,9 +56,9 @@ class SimulationSource(FilmSource):
             self._simulation.run(ahead)
         return True
 
-    def look(self) -> Picture:
+    def render(self) -> Picture:
         """Return the camera's picture."""
-        return self._camera.look()
+        return self._camera.render()
 
     def close(self) -> None:
         """Free the simulation."""
@@ -73,7 +73,7 @@ class RecordingSource(FilmSource):
         camera: Makes what looks at it.
 
     Raises:
-        SimulationError: The file is no recording.
+        SimulationError: The file is not a recording.
     """
 
     def __init__(self, path: Path, camera: Callable[[Simulation], FilmCamera]) -> None:
@@ -91,9 +91,9 @@ class RecordingSource(FilmSource):
                 return False
         return True
 
-    def look(self) -> Picture:
+    def render(self) -> Picture:
         """Return the camera's picture."""
-        return self._camera.look()
+        return self._camera.render()
 
     def close(self) -> None:
         """Free the simulation."""
@@ -121,9 +121,9 @@ class PolicySource(FilmSource):
             self._steps += 1
         return True
 
-    def look(self) -> Picture:
+    def render(self) -> Picture:
         """Return the environment's picture."""
-        return self._playback.look()
+        return self._playback.render()
 
     def close(self) -> None:
         """Free the environment."""
@@ -166,7 +166,7 @@ class BagSource(FilmSource):
             self._now, self._next = self._next, next(self._messages, None)
         return self._next is not None
 
-    def look(self) -> Picture:
+    def render(self) -> Picture:
         """Return the image."""
         return picture_of(self._now.message)
 
@@ -177,13 +177,13 @@ class BagSource(FilmSource):
 
 def pictures_of(source: FilmSource, seconds: float | None, period: float) -> Iterator[Picture]:
     """Yield the first picture of a source, and one after each period [s], until an end time."""
-    yield source.look()
+    yield source.render()
     count = None if seconds is None else picture_count(seconds, period)
     number = 0
     while count is None or number < count:
         number += 1
         more = source.advance(number * period)
-        yield source.look()
+        yield source.render()
         if not more:
             return
 

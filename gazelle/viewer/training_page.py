@@ -28,7 +28,7 @@ class TrainingPage(Closeable):
         self._view = LiveView(
             simulation,
             port=port,
-            only_looking=True,
+            read_only=True,
             goals=goals,
             panels=(partial(TrainingPanel, curve=self._curve),),
         )

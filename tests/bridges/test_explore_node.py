@@ -106,7 +106,7 @@ def test_it_goes_for_frontiers_and_gives_up_what_cannot_be_reached(graph, explor
     until(lambda: graph.markers)
     kinds = {marker.ns for marker in graph.markers[-1].markers if marker.points}
     assert kinds == {"frontiers"}
-    graph.server.set_aborted(None, "no way")
+    graph.server.set_aborted(None, "no path")
     cycles(graph, explore, graph.server.is_new_goal_available)
     assert graph.accept() == (pytest.approx(0.7), pytest.approx(2.25))
     # The rest of the map comes as an update, and there is nothing left.

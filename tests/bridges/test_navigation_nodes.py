@@ -527,9 +527,9 @@ def test_missing_links_are_named_with_who_should_send_them():
 def test_the_warning_comes_once(room):
     said = StartDiagnosis(room.node, lambda: ["scans"], patience=0.0)
     with pytest.warns(NavigationWarning, match="/robot waits for: scans"):
-        assert said.look(waiting=True)
-    assert said.look(waiting=True) is None
-    assert StartDiagnosis(room.node, lambda: ["scans"], patience=0.0).look(waiting=False) is None
+        assert said.check(waiting=True)
+    assert said.check(waiting=True) is None
+    assert StartDiagnosis(room.node, lambda: ["scans"], patience=0.0).check(waiting=False) is None
 
 
 def test_orientations_have_to_be_upright_quaternions():

@@ -166,7 +166,7 @@ def test_one_look_in_a_long_time(graph):
 
 def test_waiting_for_a_model_ends(graph):
     graph.gazebo.wait_for_model("r1")
-    with pytest.raises(ClientError, match="not there after"):
+    with pytest.raises(ClientError, match="did not appear within"):
         graph.gazebo.wait_for_model("nobody", timeout=0.2)
 
 

@@ -47,7 +47,7 @@ def test_a_simulator_is_there_when_made_and_gone_when_closed(master):
 
 @pytest.mark.long
 def test_a_simulator_is_not_taken_for_another(master):
-    with SimulatorProcess(), pytest.raises(ClientError, match="on this graph already: /gazebo"):
+    with SimulatorProcess(), pytest.raises(ClientError, match="running on this graph: /gazebo"):
         SimulatorProcess()
 
 
@@ -141,7 +141,7 @@ def test_a_node_is_started_listed_and_ended(master):
             until(lambda: "/tf" in dict(node.master.published_topics()))
         processes.stop(name)
         until(lambda: name not in processes.nodes())
-        with pytest.raises(ClientError, match="nothing called"):
+        with pytest.raises(ClientError, match="no running process is called"):
             processes.stop(name)
 
 

@@ -131,8 +131,8 @@ def test_maps_and_other_files_are_no_controllers(tmp_path):
     ("more", "expected"),
     [
         ("ocupied_thresh: 0.5\n", "did you mean 'occupied_thresh'?"),
-        ("---\nimage: b.png\n", "m.yaml:7: this is no valid YAML"),
-        ("\torigin: [0, 0, 0]\n", "m.yaml:7: this is no valid YAML"),
+        ("---\nimage: b.png\n", "m.yaml:7: this is not valid YAML"),
+        ("\torigin: [0, 0, 0]\n", "m.yaml:7: this is not valid YAML"),
     ],
 )
 def test_the_command_lists_what_is_wrong_with_a_map(tmp_path, capsys, more, expected):

@@ -131,7 +131,7 @@ def test_gains_need_p_and_numbers():
         PidGains.read(ControllerParameters({"i": 1.0}, "pid"))
     with pytest.raises(ControlError, match="'pid/d' must be a number, not 'much'"):
         PidGains.read(ControllerParameters({"p": 1.0, "d": "much"}, "pid"))
-    with pytest.raises(ControlError, match="wrong way round"):
+    with pytest.raises(ControlError, match="is above the upper"):
         Pid([PidGains(i_min=1.0)])
 
 

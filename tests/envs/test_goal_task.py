@@ -134,11 +134,11 @@ def broken(**methods):
     [
         (
             {"draw_goals": lambda _, worlds: np.zeros((len(worlds), 3))},
-            r"draw_goals gave.*\(2, 3\)",
+            r"draw_goals returned.*\(2, 3\)",
         ),
-        ({"achieved": lambda *_: np.zeros(2)}, "achieved gave an array of shape"),
+        ({"achieved": lambda *_: np.zeros(2)}, "achieved returned an array of shape"),
         ({"observe": lambda *_: np.zeros((2, 7))}, "observation has shape"),
-        ({"compute_reward": lambda *_: -1.0}, "compute_reward gave an array of shape"),
+        ({"compute_reward": lambda *_: -1.0}, "compute_reward returned an array of shape"),
         ({"goal_space": None}, "Broken has no Box as goal_space"),
         ({"goal_space": gym.spaces.Discrete(2)}, "Broken has no Box as goal_space"),
     ],

@@ -36,7 +36,7 @@ def makers(name, **options):
 @pytest.mark.parametrize("name", names(forced=True))
 def test_what_forces_move_is_refused(name):
     for make in makers(name, engine="planar"):
-        with pytest.raises(TaskError, match=r"planar knows no forces.*or choose mujoco"):
+        with pytest.raises(TaskError, match=r"planar engine computes no forces.*or choose mujoco"):
             make()
 
 

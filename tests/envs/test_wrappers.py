@@ -179,7 +179,7 @@ def test_what_cannot_be_is_refused(task, kind, options, message):
 
 
 def test_other_environments_are_refused_and_time_needs_a_limit():
-    with pytest.raises(gazelle.TaskError, match="no environment of a BatchedTask"):
+    with pytest.raises(gazelle.TaskError, match="not an environment of a BatchedTask"):
         wrapped(gym.make("CartPole-v1"), FrameStackTask, count=2)
     env = gym.make(CART)
     with pytest.raises(gazelle.TaskError, match="step limit"):

@@ -238,7 +238,7 @@ def test_a_joint_of_a_gazebo_element_to_a_link_that_is_not_there_is_left_out():
         ),
     )
     assert found.joints == ()
-    assert "'robot::gone' is no link" in text
+    assert "'robot::gone' is not a link" in text
 
 
 def test_a_link_that_is_called_after_its_model():

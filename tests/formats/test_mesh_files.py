@@ -65,8 +65,8 @@ def test_several_solids_of_a_text_stl_are_one_mesh():
         (BINARY[:400], "12 triangles, there are 6"),
         (BINARY[:100], "12 triangles, there are 0"),
         (b"solid".ljust(80) + BINARY[80:-1], "12 triangles, there are 11"),
-        (b"rubbish", "no STL file"),
-        (b"<html>not found</html>" * 20, "no STL file"),
+        (b"rubbish", "not an STL file"),
+        (b"<html>not found</html>" * 20, "not an STL file"),
         (f"solid x\n{FACET}{FACET[:50]}".encode(), "cut short"),
         (f"solid x\n{FACET}{FACET[:58]}".encode(), "cut short"),
         (f"solid x\n{FACET}{FACET[:68]}".encode(), "cut short"),
@@ -135,7 +135,7 @@ def test_obj_files_of_all_programs(text, area):
 def test_damaged_obj_files_are_errors_with_the_line(text, line):
     with pytest.raises(FormatError, match=rf"^line {line} of the OBJ file is wrong: '") as caught:
         wavefront.parse(text.encode())
-    assert "export or download" in caught.value.hint
+    assert "export the file again" in caught.value.hint
 
 
 @pytest.mark.parametrize("kind", ["stl", "obj", "dae", "ply"])

@@ -136,8 +136,8 @@ def test_maps_are_equal_by_content(tmp_path):
         ("mode: trinary", "mode: trinery", 7, "unknown mode 'trinery'; did you mean 'trinary'"),
         ("mode: trinary", "negate: 1", 7, "given twice"),
         ("image: m.png", "image: ''", 1, "must name a file"),
-        ("image: m.png", "image: '", 8, "no valid YAML"),
-        ("image: m.png", "image: m.yaml", 1, "no picture"),
+        ("image: m.png", "image: '", 8, "not valid YAML"),
+        ("image: m.png", "image: m.yaml", 1, "not a picture"),
     ],
 )
 def test_errors_name_the_line(tmp_path, old, new, line, message):

@@ -246,7 +246,7 @@ TWO = urdf_link("a") + "\n" + urdf_link("b") + "\n"
             TWO + urdf_joint("j", "a", "x"),
             4,
             "/joint[@name='j']/child",
-            "child 'x' is no link",
+            "child 'x' is not a link",
         ),
         (
             TWO + urdf_joint("j", "a", "b") + "\n" + urdf_joint("k", "b", "a"),

@@ -101,6 +101,6 @@ def test_a_plugin_of_a_joint_is_the_models_without_a_word_and_one_of_nothing_is_
     model = formats.load_string(text(rest=plugins)).models[0]
     assert [plugin.name for plugin in model.plugins] == ["j", "b"]
     nowhere = plugins.replace("reference='j'", "reference='jj'")
-    with pytest.warns(FormatWarning, match="'jj', which is no link or joint, and was ignored"):
+    with pytest.warns(FormatWarning, match="'jj', which is not a link or joint, and was ignored"):
         model = formats.load_string(text(rest=nowhere)).models[0]
     assert [plugin.name for plugin in model.plugins] == ["b"]

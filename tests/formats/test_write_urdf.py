@@ -145,7 +145,7 @@ def test_link_frames_move_to_their_joints_and_nothing_else_moves():
     arm = link("arm", Pose(1, 0, 1, yaw=0.5), collisions=(Collision("arm_collision", BOX),))
     hinge = Joint("hinge", "revolute", "body", "arm", Pose(0, 0.2, 0, roll=1.0), (ARM,))
     robot = model(body, arm, joints=(hinge,), frames=(Frame("tip", "arm", Pose(z=2)),))
-    with pytest.warns(FormatWarning, match="link's frame at its joint"):
+    with pytest.warns(FormatWarning, match="frame of a link at its joint"):
         text = formats.to_string(robot, "urdf")
     found = formats.load_model_string(text)
     assert found.links[1].pose.is_close(arm.pose * hinge.pose)

@@ -131,8 +131,8 @@ def test_out_of_reach():
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ({"aim": "place"}, "the aim is one of"),
-        ({"attempts": 0}, "needs an attempt"),
+        ({"aim": "place"}, "aim must be one of"),
+        ({"attempts": 0}, "attempts and tolerances"),
         ({"tolerance": (0.0, 1.0)}, "above zero"),
         ({"link": "head_pan_link"}, "no joint of the group 'arm' moves 'head_pan_link'"),
         ({"link": "hand"}, "no link 'hand'"),

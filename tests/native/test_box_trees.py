@@ -99,5 +99,5 @@ def test_few_boxes_are_visited_in_a_building():
 
 
 def test_no_box_is_no_tree():
-    with pytest.raises(ValueError, match="a tree has a box or more"):
+    with pytest.raises(ValueError, match="a box tree needs at least one box"):
         BoxTree(np.zeros((0, 6)))

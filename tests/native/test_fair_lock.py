@@ -34,16 +34,16 @@ def test_each_thread_holds_it_in_turn_and_as_often_as_it_likes():
 
     def note(number):
         with lock:
-            order.append((number, lock.is_mine()))
+            order.append((number, lock.is_owner()))
 
     with lock:
         threads = [asking(lock, lambda n=n: note(n)) for n in range(4)]
         assert order == []
-        assert lock.is_mine()
+        assert lock.is_owner()
     for thread in threads:
         thread.join()
     assert order == [(n, True) for n in range(4)]
-    assert not lock.is_mine()
+    assert not lock.is_owner()
     assert lock.owner == 0
 
 
@@ -56,8 +56,8 @@ def test_who_lends_it_has_it_back_before_those_that_come_later():
 
     with lock:
         threads = [asking(lock, first), asking(lock, lambda: order.append("second"))]
-        lock.lend()
-        assert lock.is_mine()
+        lock.yield_lock()
+        assert lock.is_owner()
         order.append("owner")
     for thread in threads + late:
         thread.join()
@@ -69,9 +69,9 @@ def test_who_holds_it_twice_does_not_lend_it():
     with lock:
         with lock:
             thread = asking(lock, lambda: order.append("other"))
-            lock.lend()
+            lock.yield_lock()
             order.append("owner")
-        lock.lend()
+        lock.yield_lock()
         order.append("again")
     thread.join()
     assert order == ["owner", "other", "again"]
@@ -87,7 +87,7 @@ def test_threads_in_loops_all_make_progress(lends):
             with lock:
                 counts[number] += 1
                 if lends and number == 0:
-                    lock.lend()
+                    lock.yield_lock()
 
     with ThreadPoolExecutor(len(counts)) as pool:
         list(pool.map(loop, range(len(counts))))
@@ -104,7 +104,7 @@ def test_no_two_threads_hold_it_at_once():
                 count[0], before = -1, count[0]
                 count[0] = before + 1
                 if before % 7 == 0:
-                    lock.lend()
+                    lock.yield_lock()
 
     with ThreadPoolExecutor(6) as pool:
         list(pool.map(work, range(12)))
@@ -137,8 +137,8 @@ def test_an_error_of_who_borrows_it_gives_it_back():
         thread.start()
         while not lock.waiting:
             time.sleep(0.001)
-        lock.lend()
-        assert lock.is_mine()
+        lock.yield_lock()
+        assert lock.is_owner()
     thread.join()
     assert errors == []
 
@@ -151,7 +151,7 @@ def test_only_who_holds_it_releases_it():
         answer = ThreadPoolExecutor(1).submit(lock.release)
         with pytest.raises(RuntimeError, match="does not hold it"):
             answer.result()
-        assert lock.is_mine()
+        assert lock.is_owner()
 
 
 def test_work_is_done_at_once_by_the_owner_and_else_by_whoever_holds_the_lock():
@@ -163,7 +163,7 @@ def test_work_is_done_at_once_by_the_owner_and_else_by_whoever_holds_the_lock():
         other.start()
         other.join()
         assert done == ["free", "owner"]
-        lock.lend()
+        lock.yield_lock()
         assert done == ["free", "owner", "other"]
 
 
@@ -195,8 +195,8 @@ def test_who_lends_it_to_one_that_keeps_it_gives_up_without_it():
         lock.acquire()
         lock.release()
         with pytest.raises(TimeoutError):
-            lock.lend()
-        assert not lock.is_mine()
+            lock.yield_lock()
+        assert not lock.is_owner()
         keep.set()
         thread.join()
         lock.acquire()  # for the end of this block
@@ -240,7 +240,7 @@ def test_an_interrupt_ends_the_waiting_and_leaves_the_queue(interrupts):
     with pytest.raises(KeyboardInterrupt):
         lock.acquire()
     assert not lock.waiting
-    assert not lock.is_mine()
+    assert not lock.is_owner()
     keep.set()
     holder.join()
     with lock:
@@ -257,18 +257,18 @@ def test_an_interrupt_of_who_lends_it_is_raised_when_the_lock_is_back(interrupts
             time.sleep(0.001)
         order.append("given back")
 
-    def lend():
+    def yield_lock():
         with lock:
             threads.append(asking(lock, hold))
             interrupts.armed = True
             try:
-                lock.lend()
+                lock.yield_lock()
             finally:
-                order.append(lock.is_mine())
+                order.append(lock.is_owner())
 
     threads = []
     with pytest.raises(KeyboardInterrupt):
-        lend()
+        yield_lock()
     assert order == ["given back", True]
     threads[0].join()
     assert lock.owner == 0
@@ -301,7 +301,7 @@ def test_no_interrupt_leaves_the_lock_with_a_thread_that_does_not_know_it(interr
                     with lock:
                         pass
             caught += 1
-            assert not lock.is_mine()
+            assert not lock.is_owner()
     finally:
         sys.setswitchinterval(interval)
         done.set()

@@ -175,7 +175,7 @@ def test_the_fastest_build_that_runs_here_is_chosen():
 
 
 def test_an_unknown_build_is_refused_by_name():
-    assert "GAZELLE_NATIVE is one of baseline, avx2" in outcome("fastest").stderr
+    assert "GAZELLE_NATIVE must be one of baseline, avx2" in outcome("fastest").stderr
 
 
 @pytest.mark.long

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from gazelle.native.ray_frames import CarriedRays
+from gazelle.native.ray_frames import FrameRays
 from gazelle.rotations import rotate
 
 
@@ -16,7 +16,7 @@ def test_rays_go_with_their_frames(nworld, frames, rays):
     origins, directions = rng.normal(size=(2, frames, rays, 3))
     for each in (position, quaternion, origins, directions):
         each.flags.writeable = False
-    carried = CarriedRays(origins, directions, nworld)
+    carried = FrameRays(origins, directions, nworld)
     carried.aim(position, quaternion, beside)
     turned = quaternion[:, :, None]
     wanted = position[:, :, None] + beside + rotate(turned, origins[None])
@@ -28,7 +28,7 @@ def test_rays_go_with_their_frames(nworld, frames, rays):
 @pytest.mark.parametrize("signed", [False, True])
 def test_what_is_met_from_inside_faces_away_and_has_an_inside(signed):
     along = np.tile([1.0, 0.0, 0.0], (1, 4, 1))
-    rays = CarriedRays(np.zeros((1, 4, 3)), along, 1)
+    rays = FrameRays(np.zeros((1, 4, 3)), along, 1)
     rays.aim(np.zeros((1, 1, 3)), np.array([[[0.0, 0.0, 0.0, 1.0]]]), np.zeros(3))
     rays.normal[:] = [[-1.0, 0, 0], [0.5, 0.5, 0], [1.0, 0, 0], [0.0, 0, 0]]
     rays.distance[:] = [2.0, 3.0, 4.0, -1.0]

@@ -196,7 +196,7 @@ def test_a_map_that_is_made_is_not_given():
     with gazelle.Simulation("turtlebot3_world", engine="planar") as sim:
         robot = sim.spawn("turtlebot3_burger", pose=Pose(-2.0, -0.5))
         plan = true_map(sim.world, 0.18)
-        with pytest.raises(SimulationError, match="given none"):
+        with pytest.raises(SimulationError, match="takes no map"):
             robot.navigation.configure(grid=plan, localization="slam")
         robot.navigation.configure(localization="slam")
         assert robot.navigation.map() is None

@@ -42,10 +42,10 @@ class Cycles(RecoveryBehavior):
     def __init__(self, name, count):
         self.name, self.count, self.left = name, count, 0
 
-    def begin(self, in_whole, in_local):
+    def begin(self, global_pose, local_pose):
         self.left = self.count
 
-    def update(self, in_local):
+    def update(self, local_pose):
         self.left -= 1
         return TURN if self.left >= 0 else None
 

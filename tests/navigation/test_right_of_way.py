@@ -120,7 +120,7 @@ def test_without_it_they_wait_for_each_other_until_they_give_up(tmp_path):
 
 
 def test_parameters_of_the_wrong_kind_are_refused(tmp_path):
-    with pytest.raises(Error, match="'priority' is a float, not 'high'"):
+    with pytest.raises(Error, match="'priority' must be of type float, not 'high'"):
         meet(tmp_path, "two in a corridor", {"a": {"priority": "high"}})
 
 

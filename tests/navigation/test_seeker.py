@@ -58,7 +58,7 @@ class Ground:
 
 def test_open_ground_is_crossed_straight_and_fast():
     ground, seeker = Ground(), GoalSeeker()
-    seeker.seek((3.0, 0.0))
+    seeker.set_goal((3.0, 0.0))
     ground.run(seeker, 10.0)
     assert seeker.arrived
     assert seeker.goal is None
@@ -68,7 +68,7 @@ def test_open_ground_is_crossed_straight_and_fast():
 
 def test_the_heading_of_a_goal_is_taken():
     ground, seeker = Ground(), GoalSeeker()
-    seeker.seek((-1.0, 1.0, math.pi / 2.0))
+    seeker.set_goal((-1.0, 1.0, math.pi / 2.0))
     ground.run(seeker, 20.0)
     assert seeker.arrived
     assert ground.pose[2] == pytest.approx(math.pi / 2.0, abs=0.1)
@@ -82,7 +82,7 @@ def test_obstacles_are_driven_around(seed):
     places = stream.uniform((1.0, -1.5), (4.0, 1.5), (4, 2))
     radii = stream.uniform(0.05, 0.35, 4)
     ground, seeker = Ground(*np.column_stack((places, radii))), GoalSeeker()
-    seeker.seek((5.2, 0.0))
+    seeker.set_goal((5.2, 0.0))
     ground.run(seeker, 60.0)
     assert seeker.arrived
     assert ground.nearest > 0.2
@@ -92,7 +92,7 @@ def test_a_dead_end_is_left():
     pocket = [(2.0, y / 10.0, 0.1) for y in range(-10, 11, 2)]
     pocket += [(x / 10.0, side, 0.1) for x in range(8, 21, 2) for side in (-1.0, 1.0)]
     ground, seeker = Ground(*pocket), GoalSeeker()
-    seeker.seek((3.5, 0.0))
+    seeker.set_goal((3.5, 0.0))
     ground.run(seeker, 60.0)
     assert seeker.arrived
     assert ground.nearest > 0.2
@@ -102,7 +102,7 @@ def test_a_dead_end_is_left():
 def test_where_there_is_no_way_it_waits_for_one():
     ring = [(2.0 * math.cos(a), 2.0 * math.sin(a), 0.2) for a in np.linspace(-3.1, 3.1, 40)]
     ground, seeker = Ground(*ring), GoalSeeker()
-    seeker.seek((4.0, 0.0))
+    seeker.set_goal((4.0, 0.0))
     ground.run(seeker, 20.0)
     assert not seeker.arrived
     assert not len(seeker.path)
@@ -114,7 +114,7 @@ def test_where_there_is_no_way_it_waits_for_one():
 
 def test_of_a_goal_in_an_obstacle_the_nearest_free_place_is_taken():
     ground, seeker = Ground((3.0, 0.0, 0.2)), GoalSeeker()
-    seeker.seek((3.0, 0.0))
+    seeker.set_goal((3.0, 0.0))
     ground.run(seeker, 20.0)
     assert seeker.arrived
     assert 0.4 < math.dist(ground.pose[:2], (3.0, 0.0)) < 0.8
@@ -123,7 +123,7 @@ def test_of_a_goal_in_an_obstacle_the_nearest_free_place_is_taken():
 def test_what_is_put_back_goes_on_the_same():
     first, second = GoalSeeker(), GoalSeeker()
     ground = Ground((1.5, 0.1, 0.3), (2.5, -0.6, 0.2))
-    first.seek((4.0, 0.0, 1.0))
+    first.set_goal((4.0, 0.0, 1.0))
     ground.run(first, 3.0)
     second.restore(first.state())
     scan = ground.scan()

@@ -175,7 +175,7 @@ def test_a_link_stays_upright():
         (Pose(3.0, 0.0, 1.0), PlanOutcome.NO_IK_SOLUTION, "out of reach"),
         (Pose(0.75, 0.3, 0.75), PlanOutcome.GOAL_IN_COLLISION, "'gripper_link' collide"),
         ({"elbow_flex_joint": 2.5}, PlanOutcome.INVALID_GOAL_CONSTRAINTS, "2.5000 is beyond its limits"),
-        (ConstraintSet(), PlanOutcome.INVALID_GOAL_CONSTRAINTS, "says nothing"),
+        (ConstraintSet(), PlanOutcome.INVALID_GOAL_CONSTRAINTS, "has no constraints"),
         (
             ConstraintSet((JointConstraint("torso_lift_joint", 0.3),)),
             PlanOutcome.INVALID_GOAL_CONSTRAINTS,
@@ -240,7 +240,7 @@ def test_no_way():
         scene.add(f"wall {side}", Box((2.0, 0.02, 3.0)), Pose(side * 1.05, 0.0, 1.5))
     goal = scene.state[group.columns].copy()
     goal[0] = -2.2
-    with pytest.raises(NoPlanError, match="found no way to the goal"):
+    with pytest.raises(NoPlanError, match="found no path to the goal"):
         MotionPlanner(scene, group, PlanOptions(time=0.5)).plan(goal)
 
 

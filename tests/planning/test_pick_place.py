@@ -123,7 +123,7 @@ def test_the_best_grasp_that_can_be_done_is_taken(scene):
 
 
 def test_what_cannot_be_taken_is_refused_with_the_reason(scene):
-    with pytest.raises(NoPlanError, match="nothing called 'cub'") as caught:
+    with pytest.raises(NoPlanError, match="no object 'cub'") as caught:
         planner(scene).pick("cub", grasps(scene))
     assert caught.value.outcome == PlanOutcome.INVALID_OBJECT_NAME
     with pytest.raises(NoPlanError, match="no grasp"):

@@ -320,7 +320,7 @@ def test_defaults_of_names():
         (lambda scene: scene.detach("x"), "holds no 'x'"),
         (lambda scene: scene.attach("x", "base_link"), "no object 'x'"),
         (lambda scene: scene.set_padding({"base_lnk": 0.1}), "did you mean 'base_link'"),
-        (lambda scene: scene.set_padding({"base_link": -0.1}), "is a length"),
+        (lambda scene: scene.set_padding({"base_link": -0.1}), "must be a length"),
         (lambda scene: scene.set_scale({"base_link": 0.0}), "above zero"),
         (lambda scene: scene.pose_of("nowhere"), "no frame 'nowhere'"),
     ],

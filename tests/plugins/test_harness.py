@@ -102,7 +102,7 @@ def test_without_a_winch_it_only_holds():
 def test_wrong_harnesses_are_refused():
     with pytest.raises(PluginWarning, match="<joint>"):
         simulate(harness(""))
-    with pytest.raises(PluginWarning, match="hangs on the world"):
+    with pytest.raises(PluginWarning, match="must be attached to the world"):
         simulate(harness(JOINT.format(damping=1).replace("world", "core")))
     wrong = harness(rest=WINCH.replace("<detach>rope", "<detach>robe"))
     with simulate() as sim:

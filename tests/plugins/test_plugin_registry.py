@@ -174,7 +174,7 @@ def test_an_installed_package_brings_plugins_by_entry_points(tmp_path):
     listed = " ".join(run(tmp_path, "-m", "gazelle", "plugins").stdout.split())
     assert "Shoves its model." in listed
     assert "Does what Gazelle does not." in listed
-    assert "'odd' (shoving_plugins:NOT_A_PLUGIN) is no plugin" in listed
+    assert "'odd' (shoving_plugins:NOT_A_PLUGIN) is not a plugin" in listed
     near = run(tmp_path, "-c", USER, "libshov.so").stderr
     assert "did you mean 'libshove.so'?" in near
 

@@ -57,7 +57,7 @@ def test_wrong_touches_are_refused():
         simulate(block(plugin=plugin("libTouchPlugin.so", target="a", time="1", namespace="n")))
     ray = """<sensor name="skin" type="ray"><ray><scan><horizontal><samples>1</samples>
     </horizontal></scan><range><min>0.1</min><max>1</max></range></ray></sensor>"""
-    with pytest.raises(PluginWarning, match="no contact sensor"):
+    with pytest.raises(PluginWarning, match="not a contact sensor"):
         simulate(block(ray, TOUCH))
 
 
@@ -146,7 +146,7 @@ def test_compensated_joints_bear_the_weight():
     with simulate(ARM.format(plugin=weightless), ground=False) as sim:
         sim.run(seconds=1.0)
         assert sim.robots["arm"].joints["j"].position == pytest.approx(0.0, abs=1e-9)
-    with pytest.warns(SimulationWarning, match="not held"):
+    with pytest.warns(SimulationWarning, match="not fixed"):
         simulate(block(plugin=weightless))
 
 

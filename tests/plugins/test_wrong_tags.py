@@ -82,7 +82,7 @@ class Starts:
             loading.load_world_plugin(self.sim, plugin)
         if "model" in places:
             model = replace(self.sim.world.models[-1], plugins=(plugin,))
-            loading.adopt(self.sim, model, self.robot)
+            loading.start_plugins(self.sim, model, self.robot)
         for unit in self.robot.sensors.values() if "sensor" in places else ():
             loading._start(self.sim, "sensor", unit, plugin, self.robot)
         try:

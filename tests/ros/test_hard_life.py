@@ -399,8 +399,8 @@ def test_a_port_that_something_else_has_is_called_so(answer):
 
         threading.Thread(target=serve, daemon=True).start()
         port = taken.getsockname()[1]
-        with pytest.raises(MasterUnreachableError, match="is no ROS master") as caught:
+        with pytest.raises(MasterUnreachableError, match="is not a ROS master") as caught:
             Node("lost", master_uri=f"http://127.0.0.1:{port}")
         assert "--port 11312" in caught.value.hint
-        with pytest.raises(RosError, match="no ROS master has that port"):
+        with pytest.raises(RosError, match="not a ROS master has that port"):
             Master(port=port)

@@ -182,7 +182,7 @@ def test_a_force_sensor_of_a_model_that_never_moves_is_left_out_with_a_warning()
     links = (Link("a"), Link("b"))
     joints = (Joint("j", "fixed", "a", "b", sensors=(ft,)),)
     with (
-        pytest.warns(SimulationWarning, match="'m::j::ft'.*is not measured yet.*never moves"),
+        pytest.warns(SimulationWarning, match="'m::j::ft'.*is not measured yet.*is static"),
         Simulation(scenes.world(Model("m", static=True, links=links, joints=joints))) as sim,
     ):
         assert "ft" not in sim.robots["m"].sensors

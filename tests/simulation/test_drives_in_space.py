@@ -285,7 +285,7 @@ class Scooters(PluginSystem):
         shape = (2, len(plugins[0].command.linear), len(plugins), 3)
         self.linear, angular = np.zeros(shape)
         for part, each in enumerate(plugins):
-            each.command.keep_in(self.linear[:, part], angular[:, part])
+            each.command.store_in(self.linear[:, part], angular[:, part])
 
     def update(self, time):
         if any(each.broken for each in self.plugins):

@@ -184,7 +184,7 @@ def test_readings_that_somebody_keeps_do_not_change():
 def test_a_rate_that_one_sensor_gets_is_its_own():
     with yard(2) as sim:
         sim.run(0.2)
-        sim.robots["r0"].sensors["eyes"].slow_to(2.0)
+        sim.robots["r0"].sensors["eyes"].limit_rate(2.0)
         sim.robots["r1"].sensors["eyes"].latest()
         sim.run(1.1)
         assert sim.robots["r0"].sensors["eyes"].schedule.rate == 2.0

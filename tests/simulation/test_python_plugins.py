@@ -61,5 +61,5 @@ def test_a_module_that_is_not_there_is_named_with_what_to_do():
 
 def test_a_class_that_is_no_plugin_is_refused(modules):
     (modules / "mine.py").write_text("class Drive: pass\n", encoding="utf-8")
-    with pytest.raises(PluginWarning, match="no plugin class"):
+    with pytest.raises(PluginWarning, match="not a plugin class"):
         gazelle.Simulation(world("mine:Drive"))

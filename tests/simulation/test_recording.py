@@ -86,9 +86,9 @@ def test_a_different_outcome_is_noticed(tmp_path):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("", "no recording"),
-        ("[]", "no recording"),
-        ('{"format": "other"}', "no recording"),
+        ("", "not a recording"),
+        ("[]", "not a recording"),
+        ('{"format": "other"}', "not a recording"),
         (
             '{"format": "gazelle-recording", "version": 99}',
             "version 99, this Gazelle reads version 3",

@@ -262,7 +262,7 @@ def test_a_listener_may_delete_the_robots_that_are_told_after_it():
 def test_a_sensor_whose_rate_changes_leaves_the_others():
     with yard("lidar") as sim:
         sim.run(0.2)
-        sim.robots["r1"].sensors["eyes"].slow_to(2.0)
+        sim.robots["r1"].sensors["eyes"].limit_rate(2.0)
         sim.run(1.1)
         assert sim.robots["r1"].sensors["eyes"].read().stamp == 1_000_000_000
         assert sim.robots["r3"].sensors["eyes"].read().stamp == 1_300_000_000

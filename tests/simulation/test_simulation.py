@@ -135,7 +135,7 @@ def test_a_snapshot_of_something_else_is_refused():
         sim.spawn(scenes.burger())
         with pytest.raises(SimulationError, match="other models"):
             sim.restore(saved)
-        with pytest.raises(SimulationError, match="no snapshot"):
+        with pytest.raises(SimulationError, match="not a snapshot"):
             sim.restore(b"nonsense")
 
 

@@ -25,7 +25,7 @@ def test_bytes_that_are_no_snapshot_are_refused():
         good = sim.snapshot()
         before = sim.state_hash()
         for bad in (b"", b"hello", b"PK", good[:100], good[:-100], good[200:], an_archive()):
-            with pytest.raises(SimulationError, match="no snapshot"):
+            with pytest.raises(SimulationError, match="not a snapshot"):
                 sim.restore(bad)
         with pytest.raises(SimulationError, match="a snapshot is bytes, not str"):
             sim.restore("hello")
@@ -119,7 +119,7 @@ def test_a_snapshot_with_a_damaged_header_is_refused(running, text):
 )
 def test_an_index_that_does_not_fit_is_refused(running, index, data):
     now = running.snapshot()
-    with pytest.raises(SimulationError, match="no snapshot"):
+    with pytest.raises(SimulationError, match="not a snapshot"):
         running.restore(archive_of(index, data))
     assert running.snapshot() == now
 

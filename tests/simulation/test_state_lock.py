@@ -127,5 +127,5 @@ def test_a_thread_that_ended_with_the_lock_is_reported_to_all_that_wait():
     for thread in [*threads, ended]:
         thread.join()
     assert len(errors) == 3
-    assert all("a thread ended that owned its state" in error.message for error in errors)
+    assert all("a thread ended while it held the state lock" in error.message for error in errors)
     assert not lock.waiting

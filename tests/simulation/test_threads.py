@@ -96,7 +96,7 @@ def call_for(name):
         "load_plugin": ("none_such.so",),
         "set_light": ("sun",),
         "use": ("default_physics",),
-        "slow_to": (5.0,),
+        "limit_rate": (5.0,),
         "subscribe": (lambda *_: None,),
         "reseed": (1, None),
         "spawn": ("shapes",),

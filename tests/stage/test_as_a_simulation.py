@@ -240,7 +240,7 @@ def test_the_bundled_fleet_is_a_world_like_any_other():
 def test_other_engines_run_its_bodies(tmp_path):
     with Simulation(write(tmp_path, WANDERING), "mujoco") as sim:
         assert sim.extension(StageFleet) is None
-        with pytest.raises(SimulationError, match="no world of Stage"):
+        with pytest.raises(SimulationError, match="not a world of Stage"):
             stage_of(sim)
         sim.robots["a"].inputs["cmd_vel"].send(0.4)
         sim.run(0.5)

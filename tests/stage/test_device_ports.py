@@ -159,12 +159,12 @@ model ( size [1 9 1] pose [2 0 0 0] )
 def test_a_reset_of_some_worlds_resets_what_wander_does_there(open_file):
     sim, fresh = open_file(WANDER, nworld=3, seed=5), open_file(WANDER, nworld=3, seed=5)
     (wander,) = stage_of(sim).controllers
-    while not wander.state()["mood"][:, 0].all():
+    while not wander.state()["turn_state"][:, 0].all():
         sim.step()
     sim.reset(worlds=[1])
-    mood = wander.state()["mood"]
-    assert mood[1].tolist() == [0, 0]
-    assert mood[0].any()
-    assert mood[2].any()
+    turn_state = wander.state()["turn_state"]
+    assert turn_state[1].tolist() == [0, 0]
+    assert turn_state[0].any()
+    assert turn_state[2].any()
     (other,) = stage_of(fresh).controllers
-    assert other.state()["mood"][1].tolist() == mood[1].tolist()
+    assert other.state()["turn_state"][1].tolist() == turn_state[1].tolist()

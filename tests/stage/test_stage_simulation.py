@@ -341,7 +341,7 @@ def test_other_controllers_are_left_out_with_a_warning(start):
 
 def test_only_stage_worlds_run_here(tmp_path):
     sdf = write(tmp_path, '<sdf version="1.6"><world name="w"/></sdf>')
-    with pytest.raises(SimulationError, match="no world of Stage"):
+    with pytest.raises(SimulationError, match="not a world of Stage"):
         StageSimulation(sdf)
     loaded = formats.load(write(tmp_path, "position ( )"))
     with StageSimulation(loaded, threads=1) as sim:

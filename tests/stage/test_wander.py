@@ -63,13 +63,20 @@ def stages_answer(ranges):
 @pytest.mark.parametrize("samples", [9, 10, 11, 180, 181])
 def test_it_answers_any_scan_as_stage_does(samples):
     random = np.random.default_rng(samples)
-    manner = {"cruise": 0.4, "creep": 0.05, "turn": 0.5, "front": 1.0, "stop": 0.3, "patience": 10}
+    settings = {
+        "cruise": 0.4,
+        "creep": 0.05,
+        "turn": 0.5,
+        "front": 1.0,
+        "stop": 0.3,
+        "patience": 10,
+    }
     for _ in range(200):
         nearest = random.choice([0.1, 0.5, 1.5])
         ranges = random.uniform(nearest, 8.0, (1, samples)) ** random.choice([1.0, 2.0])
-        command, mood = np.zeros((1, 3)), np.zeros((1, 2), np.int64)
+        command, turn_state = np.zeros((1, 3)), np.zeros((1, 2), np.int64)
         zero = np.zeros(1, np.int64)
-        law = Wandering(command, ranges, zero, zero, mood, nworld=1, seed=5, **manner)
+        law = Wandering(command, ranges, zero, zero, turn_state, nworld=1, seed=5, **settings)
         law.choose(0, 1, 0)
         assert tuple(command[0, [0, 2]]) == stages_answer(ranges[0])
 

@@ -91,7 +91,7 @@ def test_text_that_is_no_unicode_is_refused(tmp_path, point, order):
     portable.save(tmp_path / "state", {"names": np.array(["a"])})
     with_member(tmp_path / "state.npz", "names", array)
     for read in (lambda: load_actor(file), lambda: portable.load(tmp_path / "state")):
-        with pytest.raises(FormatError, match=r"'\w+.npy' has text that is no Unicode"):
+        with pytest.raises(FormatError, match=r"'\w+.npy' has text that is not Unicode"):
             read()
 
 

@@ -208,7 +208,7 @@ def test_a_demonstrator_that_is_not_there_is_named(env, shown, name, text):
 
 @pytest.mark.parametrize("name", ["too_few", "endless"])
 def test_a_demonstrator_that_gives_something_else_is_told(env, shown, name):
-    with pytest.raises(TaskError, match=r"the demonstrator gave .* \(4, 2\)"):
+    with pytest.raises(TaskError, match=r"the demonstrator returned .* \(4, 2\)"):
         learnt(env, recipe(f"{shown}:{name}"), 8)
 
 

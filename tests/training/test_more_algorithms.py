@@ -142,7 +142,7 @@ def test_callbacks_and_values_by_option(cli, tmp_path):
 @pytest.mark.parametrize(
     ("text", "complaint"),
     [
-        ("Counter", "is no callback"),
+        ("Counter", "is not a callback"),
         (f"{TASK_FILE}:Conter", "did you mean 'Counter'"),
         (f"{TASK_FILE}:NoCallback", "derive it"),
     ],
@@ -172,7 +172,7 @@ def test_evaluations_in_between_keep_the_best_and_change_nothing(tmp_path, tiny)
     again = evaluate(result.run.folder, best=True, episodes=10, seed=20_000)
     assert again.success.value == float(best["success_rate"])
     assert again.mean_return == float(best["return"])
-    with pytest.raises(FormatError, match=r"kept no best policy.*--eval-every"):
+    with pytest.raises(FormatError, match=r"has no best policy.*--eval-every"):
         evaluate(plain.run.folder, best=True)
 
 

@@ -77,7 +77,7 @@ def test_layers_with_a_memory_give_what_those_of_torch_do():
 
 
 def test_without_its_memory_such_a_policy_does_not_act():
-    with pytest.raises(TaskError, match="acts by what it remembers"):
+    with pytest.raises(TaskError, match="is recurrent"):
         counting().act(np.zeros((2, 3), np.float32))
 
 
@@ -122,7 +122,7 @@ def test_numpy_is_written_and_what_cannot_be_is_refused_in_one_line(tmp_path):
     recipe = library("recurrent_ppo", {"n_steps": 16, "batch_size": 32, "n_epochs": 1})
     run = train("test/Corridor-v0", recipe=recipe, out=tmp_path).run
     assert load_actor(export_policy(run.folder, "numpy").policy).memory is not None
-    with pytest.raises(TaskError, match="cannot be written as ONNX yet"):
+    with pytest.raises(TaskError, match="cannot be exported as ONNX yet"):
         export_policy(run.folder, "onnx")
-    with pytest.raises(TaskError, match="cannot drive robots yet"):
+    with pytest.raises(TaskError, match="cannot be deployed yet"):
         open_policy(run.folder)

@@ -82,7 +82,7 @@ def test_a_killed_search_goes_on(tmp_path):
 @pytest.mark.parametrize(
     ("text", "complaint"),
     [
-        ("trials: 3", "no sweep"),
+        ("trials: 3", "not a sweep"),
         ("parameters: {gamma: {low: 0.9}}", "needs low and high"),
         ("parameters: {}\ntrails: 3", "no 'trails'.*did you mean 'trials'"),
         ("parameters: {}\nmetric: reward", "no metric 'reward'"),

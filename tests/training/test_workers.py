@@ -110,7 +110,7 @@ def test_a_run_goes_on_with_another_number_of_workers(tmp_path, tiny):
 
 def test_a_run_begun_alone_goes_on_alone(tmp_path, tiny):
     run = train("test/Corridor-v0", recipe=tiny, out=tmp_path, steps=256).run
-    with pytest.raises(TaskError, match="begun without workers"):
+    with pytest.raises(TaskError, match="started without workers"):
         resume(run.folder, steps=512, workers=2)
 
 

@@ -79,13 +79,13 @@ def metres(view, column):
 
 def test_scans_robot_and_map_are_where_they_are(tmp_path):
     with BagTopView(write(tmp_path / "drive.bag"), SIZE) as view:
-        first = view.look()
+        first = view.render()
         assert metres(view, where(first, RED).mean()) == pytest.approx(3.0, abs=0.1)
         assert metres(view, where(first, BLUE).mean()) == pytest.approx(0.0, abs=0.15)
         assert metres(view, where(first, BLACK).mean()) == pytest.approx(3.05, abs=0.2)
         assert view.advance(1.0)
         assert not view.advance(2.5)
-        last = view.look()
+        last = view.render()
         assert metres(view, where(last, RED).mean()) == pytest.approx(3.0, abs=0.1)
         robot = where(last, BLUE)
         assert metres(view, robot.max()) == pytest.approx(2.15, abs=0.15)
@@ -96,13 +96,13 @@ def test_scans_robot_and_map_are_where_they_are(tmp_path):
 def test_scans_are_placed_by_odometry_where_there_is_no_tf(tmp_path):
     with BagTopView(write(tmp_path / "drive.bag", tf=False, grid=False), SIZE) as view:
         view.advance(2.0)
-        assert metres(view, where(view.look(), RED).mean()) == pytest.approx(3.0, abs=0.1)
+        assert metres(view, where(view.render(), RED).mean()) == pytest.approx(3.0, abs=0.1)
 
 
 def test_a_scanner_without_odometry_leaves_a_way(tmp_path):
     with BagTopView(write(tmp_path / "drive.bag", odometry=False), SIZE) as view:
         view.advance(2.0)
-        assert metres(view, where(view.look(), BLUE).max()) == pytest.approx(2.25, abs=0.15)
+        assert metres(view, where(view.render(), BLUE).max()) == pytest.approx(2.25, abs=0.15)
 
 
 def test_plans_are_drawn(tmp_path):
@@ -114,7 +114,7 @@ def test_plans_are_drawn(tmp_path):
     with Bag(str(tmp_path / "plan.bag"), "w") as bag:
         bag.write("/plan", path, Time(1))
     with BagTopView(tmp_path / "plan.bag", SIZE) as view:
-        drawn = where(view.look(), GREEN)
+        drawn = where(view.render(), GREEN)
         assert metres(view, drawn.min()) == pytest.approx(0.0, abs=0.1)
         assert metres(view, drawn.max()) == pytest.approx(2.0, abs=0.1)
 
@@ -129,7 +129,7 @@ def test_a_map_that_is_turned_lies_as_it_should(tmp_path):
     with Bag(str(tmp_path / "map.bag"), "w") as bag:
         bag.write("/map", made, Time(1))
     with BagTopView(tmp_path / "map.bag", SIZE) as view:
-        black = np.abs(view.look().astype(int) - BLACK).max(axis=-1) < 25
+        black = np.abs(view.render().astype(int) - BLACK).max(axis=-1) < 25
         rows, columns = np.nonzero(black)
         places = view._frame.middles()[2 * rows, 2 * columns]
     assert places[:, 1].mean() == pytest.approx(1.55, abs=0.05)

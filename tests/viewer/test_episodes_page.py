@@ -67,7 +67,7 @@ def test_episodes_are_shown_one_by_one_failures_first(seen, capsys):
 @pytest.mark.parametrize("other", [("--json",), ("--workers", "2")])
 def test_a_view_is_of_this_process_and_not_for_programs(other, capsys):
     assert main(["eval", "RUN", "--view", *other]) == 2
-    assert "leave out --json, --workers and --ray" in capsys.readouterr().err
+    assert "cannot be used with --json, --workers or --ray" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("chosen", [None, 2])

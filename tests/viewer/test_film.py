@@ -44,12 +44,12 @@ def test_a_picture_of_a_stage_world_shows_its_robot_and_what_that_sees(room, tmp
 
 def test_a_robot_moves_in_the_picture_and_leaves_a_trail(room):
     view = TopView(room, size=(320, 240), scans=False)
-    before = view.look()
+    before = view.render()
     stage_of(room).commands[0, 0, 0] = 1.0
     room.run(2.0)
-    with_trail = view.look()
+    with_trail = view.render()
     view.forget()
-    without = view.look()
+    without = view.render()
     assert (before != without).any()
     changed = (with_trail != without).any(axis=2)
     columns = np.nonzero(changed)[1]
@@ -90,7 +90,7 @@ def test_worlds_of_the_planar_engine_are_drawn_too_and_keep_their_random_numbers
     with gazelle.Simulation("turtlebot3_stage_4", engine="planar", nworld=2) as simulation:
         robot = simulation.spawn("turtlebot3_burger", pose=gazelle.Pose(x=-0.7))
         before = simulation.snapshot()
-        picture = TopView(simulation, world=1, size=(200, 200)).look()
+        picture = TopView(simulation, world=1, size=(200, 200)).render()
         assert len(np.unique(picture.reshape(-1, 3), axis=0)) > 5
         assert simulation.snapshot() == before
         assert robot.name in simulation.robots
@@ -98,7 +98,7 @@ def test_worlds_of_the_planar_engine_are_drawn_too_and_keep_their_random_numbers
 
 def test_the_bundled_fleet_is_drawn():
     with Simulation(assets.world("fleet"), "planar") as simulation:
-        picture = TopView(simulation, size=(480, 320)).look()
+        picture = TopView(simulation, size=(480, 320)).render()
     assert (picture[..., 0] > 200).any()
 
 

@@ -66,7 +66,7 @@ def test_rviz_has_the_fixed_frame_of_its_file(opened, tmp_path):
     main([])
     assert opened == ["odom", "base_link", None]
     file.write_text("a: [")
-    with pytest.raises(Error, match="no configuration of RViz"):
+    with pytest.raises(Error, match="not a configuration of RViz"):
         main(["-d", str(file)])
     file.write_text("- 1")
     assert programs.fixed_frame_of(file) is None

@@ -374,7 +374,7 @@ def test_parts_of_a_plan_follow_each_other():
     ("names", "row", "words"),
     [
         (["j"], [0.0, 1.0], "2 positions for 1 joints"),
-        (["j"], [float("nan")], "no number"),
+        (["j"], [float("nan")], "not a number"),
         (["elsewhere"], [0.0], "none of the joints"),
     ],
 )
@@ -409,7 +409,7 @@ def test_an_unknown_layout_or_panel_is_refused(view, tmp_path, monkeypatch):
         with pytest.raises(Error, match=text):
             view.load_layout(name)
     (tmp_path / "list.yaml").write_text("- 1")
-    with pytest.raises(Error, match="is no mapping"):
+    with pytest.raises(Error, match="is not a mapping"):
         view.load_layout("list")
     with pytest.raises(Error, match="did you mean 'Plot'"):
         view.open_panel("Plod")

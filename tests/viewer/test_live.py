@@ -308,8 +308,8 @@ def test_what_goes_wrong_on_the_page_is_said_there_and_stops_nothing(room, monke
         tools = layer(view, "InsertTools")
         tools._what.value = "file ..."
         tools._file.value = "/nowhere/robot.urdf"
-        view._context.careful(tools.spawn)
-        view._context.careful(lambda: 1 / 0)
+        view._context.guarded(tools.spawn)
+        view._context.guarded(lambda: 1 / 0)
         assert "/nowhere/robot.urdf" in said[0][1]
         assert "ZeroDivisionError" in said[1][1]
         room.run(0.1)
@@ -440,7 +440,7 @@ def test_it_ends_with_its_simulation(room):
 
 
 def test_a_page_to_look_at_alone_changes_nothing(room):
-    with LiveView(room, only_looking=True) as view:
+    with LiveView(room, read_only=True) as view:
         view._context.select("box")
         pictures(view)
         assert ask(view, f"{secret(view)}drive?linear=1&angular=0")[0].status == 404

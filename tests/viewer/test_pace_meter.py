@@ -87,7 +87,7 @@ def page_text(states, wall):
     """Return what the page says after some states, a picture apart."""
     gui = SimpleNamespace(add_markdown=lambda _text: SimpleNamespace(content=""))
     simulation = SimpleNamespace(physics=SimpleNamespace(time_step=0.2))
-    context = SimpleNamespace(gui=gui, careful=None, only_looking=True, simulation=simulation)
+    context = SimpleNamespace(gui=gui, guarded=None, read_only=True, simulation=simulation)
     controls = RunControls(context)
     for state in states:
         wall.now += PICTURE_S

@@ -44,14 +44,14 @@ def test_a_robot_is_seen_to_move_and_is_followed(engine):
         robot = sim.spawn("turtlebot3_burger")
         camera = SceneCamera(sim, size=(240, 160))
         behind = SceneCamera(sim, size=(240, 160), follow="turtlebot3_burger")
-        still, near = camera.look(), behind.look()
+        still, near = camera.render(), behind.render()
         assert still.shape == (160, 240, 3)
-        assert (camera.look() == still).all()
+        assert (camera.render() == still).all()
         robot.set_pose((0.8, 0.3, 0.0))
-        moved = np.abs(camera.look().astype(int) - still).max(axis=2) > 25
+        moved = np.abs(camera.render().astype(int) - still).max(axis=2) > 25
         assert 5 < moved.sum() < 0.1 * moved.size
         # What is around it is elsewhere, and it is where it was.
-        middle = np.abs(behind.look().astype(int) - near)[70:90, 110:130]
+        middle = np.abs(behind.render().astype(int) - near)[70:90, 110:130]
         assert np.median(middle) < 10
         with pytest.raises(Error, match="no model"):
             SceneCamera(sim, follow="nobody")
@@ -74,10 +74,10 @@ def test_a_camera_that_follows_looks_from_where_nothing_is_in_the_way(engine, x,
         robot = sim.spawn("turtlebot3_burger")
         sim.spawn(formats.load_model_string(WALL.format(x, thick)))
         camera = SceneCamera(sim, size=(240, 160), follow="turtlebot3_burger")
-        with_it = camera.look()
+        with_it = camera.render()
         robot.set_pose((50.0, 0.0, 0.0))
         camera._follow, camera._dodges = "", False
-        gone = np.abs(camera.look().astype(int) - with_it).max(axis=2) > 25
+        gone = np.abs(camera.render().astype(int) - with_it).max(axis=2) > 25
         assert gone[60:100, 90:150].mean() > 0.05
 
 
@@ -102,13 +102,13 @@ def test_a_robot_that_drives_behind_walls_stays_in_sight():
 def _share_of_robot(camera, robot, x):
     """Return the share of pixels in the middle that change when the robot is not there."""
     robot.set_pose((x, 0.0, 0.0))
-    with_it = camera.look()
+    with_it = camera.render()
     robot.set_pose((x, 0.0, -5.0))
     follow, dodges, eye, target = camera._follow, camera._dodges, camera._eye, camera._target
     camera._follow, camera._dodges = "", False
     shift = np.array([x, 0.0, 0.0])
     camera._eye, camera._target = eye + shift, target + shift
-    gone = np.abs(camera.look().astype(int) - with_it).max(axis=2) > 25
+    gone = np.abs(camera.render().astype(int) - with_it).max(axis=2) > 25
     camera._follow, camera._dodges, camera._eye, camera._target = follow, dodges, eye, target
     return gone[25:55, 40:80].mean()
 
@@ -116,12 +116,12 @@ def _share_of_robot(camera, robot, x):
 def test_a_camera_follows_models_that_come_and_go():
     with Simulation("empty", threads=1) as sim:
         camera = SceneCamera(sim, eye=(2, 2, 1), target=(0, 0, 0), size=(160, 120))
-        before = camera.look()
+        before = camera.render()
         sim.spawn("turtlebot3_burger")
-        there = camera.look()
+        there = camera.render()
         assert (there != before).any()
         sim.delete("turtlebot3_burger")
-        assert (camera.look() == before).all()
+        assert (camera.render() == before).all()
 
 
 def test_a_film_of_a_world_in_space(tmp_path):

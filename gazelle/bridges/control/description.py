@@ -34,5 +34,5 @@ def _read(text: str, name: str) -> Model | None:
     try:
         return load_model_string(text, name=name)
     except Error as error:
-        warnings.warn(ControlWarning(f"the parameter {name} is no robot: {error}"), stacklevel=3)
+        warnings.warn(ControlWarning(f"the parameter {name} is not a robot: {error}"), stacklevel=3)
         return None

@@ -123,7 +123,7 @@ class HeadPointer:
             arrived = np.abs(np.array(state.actual.positions) - there).max() < self._threshold / 4.0
             if arrived or state.header.stamp.to_sec() > end:
                 why = "its joints' limits" if left > self._threshold else "its controller"
-                raise ControlError(f"the head is {angle:.3f} rad off, for {why}")
+                raise ControlError(f"the head is {angle:.3f} rad off the target: {why}")
 
     def _next(
         self, known: control_msgs.msg.JointTrajectoryControllerState | None
@@ -141,7 +141,9 @@ class HeadPointer:
                     break
                 self._news.wait(_LOOK_S)
         name = self._node.resolve("state")
-        raise ControlError(f"no trajectory controller says on '{name}' where the head is")
+        raise ControlError(
+            f"no trajectory controller publishes on '{name}' the position of the head"
+        )
 
     def _in_frame(self, base: str, target: geometry_msgs.msg.PointStamped) -> Floats:
         """Return a point in the frame of a link.

@@ -46,7 +46,7 @@ class ModelServices:
         """Answer ``spawn_urdf_model``.
 
         Raises:
-            ServiceError: The text is no URDF; the call fails, as Gazebo's does.
+            ServiceError: The text is not a URDF; the call fails, as Gazebo's does.
         """
         if not is_urdf(request.model_xml):
             raise ServiceError("SpawnModel: Failure - entity format is invalid.")

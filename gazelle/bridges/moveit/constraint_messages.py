@@ -36,7 +36,7 @@ def constraints_of_message(
         NoPlanError: A frame is not known, or a constraint is of a kind that is not planned for.
     """
     if message.visibility_constraints:
-        _refuse("constraints of visibility are not planned for")
+        _refuse("visibility constraints are not supported")
     return ConstraintSet(
         tuple(
             JointConstraint(each.joint_name, each.position, each.tolerance_above, each.tolerance_below)
@@ -56,8 +56,8 @@ def _position(
     if region.meshes or not count or len(region.primitive_poses) != count:
         _refuse(
             f"the region for link '{message.link_name}' is {count} shapes at "
-            f"{len(region.primitive_poses)} poses and {len(region.meshes)} meshes; it must be shapes "
-            "at as many poses"
+            f"{len(region.primitive_poses)} poses and {len(region.meshes)} meshes; it needs one "
+            "pose for each shape, and no meshes"
         )
     base = frames.find(message.header.frame_id, state)
     parts = [

@@ -61,7 +61,7 @@ def controllers_of(node: Node) -> dict[str, ActionController]:
     if entries is None:
         return _running(node)
     if not isinstance(entries, list) or not all(isinstance(each, Mapping) for each in entries):
-        raise PlanningError("the parameter 'controller_list' is no list of controllers")
+        raise PlanningError("the parameter 'controller_list' must be a list of controllers")
     # As MoveIt's fake manager has it; the simple one wants a type.
     fake = "fake" in str(node.get_param("~moveit_controller_manager", "")).lower()
     found = {}

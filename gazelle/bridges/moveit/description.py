@@ -36,7 +36,7 @@ def robot_of_parameters(node: Node, description: str = DESCRIPTION) -> RobotMode
     entries = parameters.get("joint_limits") if isinstance(parameters, Mapping) else None
     if not isinstance(entries or {}, Mapping):
         raise PlanningError(
-            f"the parameter '{description}_planning/joint_limits' is limits by joint, "
+            f"the parameter '{description}_planning/joint_limits' must map joints to limits, "
             f"not {entries!r:.60}"
         )
     return RobotModel(model, semantics, _limits(plain, entries or {}))
@@ -48,7 +48,7 @@ def margins_of_parameters(
     """Return padding [m] and scale of links, from ``..._planning/default_robot_padding`` etc.
 
     Raises:
-        PlanningError: One is no number.
+        PlanningError: One is not a number.
     """
     parameters = find_parameter(node, f"{DESCRIPTION}_planning", {})
     parameters = parameters if isinstance(parameters, Mapping) else {}
@@ -72,7 +72,7 @@ def margins_of_parameters(
 def _number(value: Any, name: str) -> float:
     number = real(value)
     if number is None:
-        raise PlanningError(f"the parameter '{name}' is a number, not {value!r:.60}")
+        raise PlanningError(f"the parameter '{name}' must be a number, not {value!r:.60}")
     return number
 
 

@@ -16,7 +16,7 @@ from gazelle_ros.time import Time
 
 
 class PlanningFrames:
-    """Frames of a robot, of things in its scene, and of ``/tf``.
+    """Frames of a robot, of objects in its scene, and of ``/tf``.
 
     Args:
         node: Listens to ``/tf`` and ``/tf_static``.

@@ -18,7 +18,7 @@ def change_held(
     """Apply an ``AttachedCollisionObject``; the robot is in the scene's state.
 
     Raises:
-        PlanningError: It names what is not there, or a shape cannot be.
+        PlanningError: It names what is not there, or a shape is invalid.
     """
     refuse_reserved(message.object.id)
     if message.object.operation == _REMOVE:
@@ -36,7 +36,7 @@ def scene_in_state(
         scene: The scene; it stays as it is.
         frames: Of the messages.
         message: The state.
-        state: Its positions, by which things of other frames are placed, shape (variables,).
+        state: Its positions, by which objects of other frames are placed, shape (variables,).
 
     Raises:
         NoPlanError: Something cannot be held.
@@ -61,7 +61,9 @@ def refuse_reserved(name: str) -> None:
         PlanningError: It does.
     """
     if name == OCTOMAP:
-        raise PlanningError(f"an object cannot be named '{OCTOMAP}'; that is the scene's octomap")
+        raise PlanningError(
+            f"an object cannot be named '{OCTOMAP}'; that name is reserved for the octomap"
+        )
 
 
 def _leave(scene: PlanningScene, message: moveit_msgs.msg.AttachedCollisionObject) -> None:

@@ -88,7 +88,7 @@ class KinematicsServices:
         found = solver.solve(pose, state, valid=validity, timeout=timeout or math.inf)
         if found is None:
             raise NoPlanError(
-                f"no positions of '{validity.group.name}' bring '{solver.link}' there",
+                f"no inverse kinematics solution of '{validity.group.name}' for '{solver.link}' at this pose",
                 PlanOutcome.NO_IK_SOLUTION,
             )
         return found
@@ -215,7 +215,7 @@ def _targets(
     """Return the links and poses of a request.
 
     Raises:
-        NoPlanError: There are more of the ones than of the others.
+        NoPlanError: The numbers of links and poses differ.
     """
     if not query.pose_stamped_vector:
         return [(query.ik_link_name or None, query.pose_stamped)]

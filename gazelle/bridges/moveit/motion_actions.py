@@ -84,7 +84,7 @@ class MoveGroupAction:
                 left -= 1
                 if left <= 0 or error.outcome not in _RECOVERABLE or self._preempted():
                     raise
-                LOG.warning("move_group: planning anew: %s", error)
+                LOG.warning("move_group: replanning: %s", error)
                 time.sleep(max(0.0, min(options.replan_delay, _LONGEST_DELAY_S)))
                 self._publish_state("PLANNING")
             else:
@@ -110,12 +110,12 @@ class MoveGroupAction:
         )
         try:
             self._executor.execute(
-                result.planned_trajectory, lambda: self._preempted() or monitor.look()
+                result.planned_trajectory, lambda: self._preempted() or monitor.is_blocked()
             )
         except NoPlanError:
             if not monitor.blocked:
                 raise
-            raise NoPlanError("something came into the way of the motion", _BLOCKED) from None
+            raise NoPlanError("an obstacle moved into the path", _BLOCKED) from None
         result.executed_trajectory = result.planned_trajectory
 
     def _preempted(self) -> bool:
@@ -133,7 +133,7 @@ class MoveGroupAction:
         start = request.start_state
         if from_here and (start.joint_state.name or start.attached_collision_objects):
             LOG.warning(
-                "move_group: a plan that is executed begins where the robot is, not at the "
+                "move_group: a plan that is executed starts at the robot's state, not at the "
                 "request's start_state"
             )
         plan = self._planning.plan(request, from_here=from_here, scene=self._scene.changed(change))

@@ -1,4 +1,4 @@
-"""Things of a planning scene from and to ``moveit_msgs/CollisionObject``."""
+"""Objects of a planning scene from and to ``moveit_msgs/CollisionObject``."""
 
 from __future__ import annotations
 

@@ -41,7 +41,7 @@ class PathMonitor:
         self._seen, self._passed = seen, 0
         self.blocked = False
 
-    def look(self) -> bool:
+    def is_blocked(self) -> bool:
         """Return whether the rest of the path is blocked now."""
         if self._seen != self._services.revision and not self.blocked:
             with self._context.lock:

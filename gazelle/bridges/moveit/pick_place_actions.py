@@ -40,7 +40,7 @@ class ManipulationAction(Generic[_GoalT, _ResultT]):
     Args:
         context: The robot and its scene.
         planning: Knows the planners' settings.
-        scene: Shown when a thing is taken or left.
+        scene: Shown when an object is taken or left.
         executor: Moves.
 
     Attributes:
@@ -173,7 +173,7 @@ class ManipulationAction(Generic[_GoalT, _ResultT]):
 class PickupAction(
     ManipulationAction["moveit_msgs.msg.PickupGoal", "moveit_msgs.msg.PickupResult"]
 ):
-    """Takes a thing of the scene by one of the grasps of the goal."""
+    """Takes an object of the scene by one of the grasps of the goal."""
 
     name, kind = "pickup", "Pickup"
 
@@ -210,7 +210,7 @@ class PickupAction(
 
 
 class PlaceAction(ManipulationAction["moveit_msgs.msg.PlaceGoal", "moveit_msgs.msg.PlaceResult"]):
-    """Puts down a thing that is held, at one of the places of the goal."""
+    """Puts down an object that is held, at one of the places of the goal."""
 
     name, kind = "place", "Place"
 

@@ -110,7 +110,7 @@ class PlanningContext:
         """Convert a ``moveit_msgs/Constraints``; its links and joints must exist.
 
         Raises:
-            NoPlanError: One cannot be.
+            NoPlanError: One is invalid.
         """
         made = constraints_of_message(message, self.frames, state)
         try:

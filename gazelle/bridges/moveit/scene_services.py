@@ -118,7 +118,7 @@ class SceneServices:
         try:
             if not self._merge(message):
                 raise NoPlanError(
-                    "the request's change of the planning scene cannot be done",
+                    "the planning scene cannot be changed as the request says",
                     PlanOutcome.INVALID_OBJECT_NAME,
                 )
             yield
@@ -150,7 +150,7 @@ class SceneServices:
         scale = {each.link_name: each.scale for each in message.link_scale}
         done &= self._try(lambda: scene.set_padding(padding))
         done &= self._try(lambda: scene.set_scale(scale))
-        # What is held may be taken from what stands there, so things are put there before.
+        # What is held may be taken from what stands there, so objects are put there before.
         done &= self._place(message.world)
         self._colors |= {each.id: each.color for each in message.object_colors}
         for each in message.robot_state.attached_collision_objects:
@@ -184,7 +184,7 @@ class SceneServices:
             self._scene.remove(OCTOMAP)
         return True
 
-    # -- things --------------------------------------------------------------------------
+    # -- objects --------------------------------------------------------------------------
 
     def _object(self, message: moveit_msgs.msg.CollisionObject) -> bool:
         """Apply a ``CollisionObject``."""
@@ -211,6 +211,7 @@ class SceneServices:
                 self._colors.pop(name, None)
 
     def _append(self, message: moveit_msgs.msg.CollisionObject) -> None:
+        """Add shapes to an object of the scene; add the object if it is new."""
         if message.id not in self._scene.objects:
             self._add(message)
             return

@@ -117,11 +117,11 @@ class TrajectoryExecutor:
         unknown = {*self._context.monitor.unknown} & {*trajectory.joint_names}
         if unknown:
             raise _failed(
-                "nobody says on 'joint_states' where these are: " + ", ".join(sorted(unknown))
+                "no message on 'joint_states' has the positions of " + ", ".join(sorted(unknown))
             )
         there = np.array(trajectory.points[0].positions)
         if there.shape != columns.shape or not np.isfinite(there).all():
-            raise _failed("the first point of the trajectory has not one position for each joint")
+            raise _failed("the first point of the trajectory must have one position for each joint")
         away = there - self._context.monitor.current()[columns]
         for number, column in enumerate(columns):
             if robot.variables[column].endless:
@@ -158,7 +158,7 @@ class TrajectoryExecutor:
             self._clients[controller.action] = made
         client = self._clients[controller.action]
         if not client.wait_for_server(_SERVER_S):
-            raise _failed(f"the controller's action '{controller.action}' is not there")
+            raise _failed(f"the controller's action '{controller.action}' is not available")
         goal: Any = load_message(f"control_msgs/{controller.kind}Goal")()
         if controller.kind == TRAJECTORY:
             goal.trajectory = self._part(controller, trajectory)
@@ -198,7 +198,7 @@ class TrajectoryExecutor:
         lenient: list[bool],
         spare: float,
     ) -> None:
-        """Wait until all are there; when one fails, or it takes too long, all are stopped."""
+        """Wait for all controllers to finish; stop all if one fails or takes too long."""
         node, pause = self._context.node, threading.Event()
         duration = trajectory.points[-1].time_from_start.to_nsec()
         limit = node.clock.now() + int(duration * self._scaling + (self._margin + spare) * 1e9)

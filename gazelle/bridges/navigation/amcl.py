@@ -105,7 +105,7 @@ class AmclNode:
             self._scans.work(self._find, self._use)
             localizer = self._localizer
             lost = localizer is None or localizer.map_to_odom is None
-            self._diagnosis.look(waiting=lost)
+            self._diagnosis.check(waiting=lost)
         self._save()
 
     def _missing(self) -> list[str]:

@@ -80,7 +80,7 @@ class BandTopics:
             velocity = each.velocities.twist.linear
             numbers = np.array([*corners.ravel(), each.radius, velocity.x, velocity.y])
             if not len(corners) or not np.isfinite(numbers).all():
-                _LOG.warning("an obstacle without corners, or not of finite numbers, is ignored")
+                _LOG.warning("ignoring an obstacle without corners or with non-finite numbers")
                 continue
             radius = max(float(each.radius), 0.0) if len(corners) == 1 else 0.0
             # Velocities are given in the planner's frame, as in the original.

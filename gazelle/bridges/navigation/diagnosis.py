@@ -34,7 +34,7 @@ class StartDiagnosis:
         self._since = time.monotonic()
         self._reported = False
 
-    def look(self, *, waiting: bool) -> str | None:
+    def check(self, *, waiting: bool) -> str | None:
         """Warn if it is time; returns the warning.
 
         Args:

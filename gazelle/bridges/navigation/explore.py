@@ -77,7 +77,7 @@ class ExploreNode:
         """Run until shutdown."""
         rate = Rate(self._node.clock, self.settings.planner_frequency, reset=True)
         while not stop.is_set() and not self._node.closed:
-            self._diagnosis.look(waiting=bool(self._missing()))
+            self._diagnosis.check(waiting=bool(self._missing()))
             self.cycle()
             rate.sleep(stop.is_set)
         if not self._node.closed and not self.finished:
@@ -131,7 +131,7 @@ class ExploreNode:
         cells = np.array(message.data, np.int8)
         shape = message.info.height, message.info.width
         if cells.size != shape[0] * shape[1]:
-            _LOG.error("a map of %d x %d cells came with %d", shape[1], shape[0], cells.size)
+            _LOG.error("a map of %d x %d cells has %d values", shape[1], shape[0], cells.size)
             return
         with self._lock:
             self._grid, self._costs = message, _costs_of(cells).reshape(shape)
@@ -142,7 +142,7 @@ class ExploreNode:
         with self._lock:
             rows, columns = self._costs.shape
             if min(x, y) < 0 or x + wide > columns or y + high > rows or cells.size != wide * high:
-                _LOG.error("an update of the map is not within it")
+                _LOG.error("a map update reaches beyond the map")
                 return
             self._costs[y : y + high, x : x + wide] = _costs_of(cells).reshape(high, wide)
 

@@ -66,7 +66,7 @@ class FakeLocalizationNode:
         """Publish poses as they come, until shutdown."""
         while not stop.is_set() and not self._node.closed:
             self._truths.work(self._odometry, self._localise)
-            self._diagnosis.look(waiting=bool(self._missing()))
+            self._diagnosis.check(waiting=bool(self._missing()))
 
     def _missing(self) -> list[str]:
         found = missing_links(self.frames.tree, "", self._odom, self._base)
@@ -99,7 +99,7 @@ class FakeLocalizationNode:
         """Shift the map, so that the robot is where ``initialpose`` says."""
         frame = message.header.frame_id.strip("/")
         if frame != self._whole:
-            _LOG.warning("initialpose is in '%s' and taken for one in '%s'", frame, self._whole)
+            _LOG.warning("initialpose is in frame '%s', treated as '%s'", frame, self._whole)
         stamp = message.header.stamp.to_nsec()
         now = self.frames.find(self._whole, self._base, stamp) or self.frames.find(
             self._whole, self._base

@@ -175,7 +175,7 @@ class LocalizationFilterNode:
         rate = Rate(self._node.clock, self.settings.frequency, reset=True)
         begin = self._node.clock.now()
         while not stop.is_set() and not self._node.closed:
-            self._diagnosis.look(waiting=bool(self._missing()))
+            self._diagnosis.check(waiting=bool(self._missing()))
             self.cycle()
             now = self._node.clock.now()
             if not 0 <= now - begin < _DIAGNOSTICS_S * SECOND:

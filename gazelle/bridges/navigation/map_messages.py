@@ -36,8 +36,8 @@ def grid_of_message(message: nav_msgs.msg.OccupancyGrid) -> OccupancyMap:
     data = np.array(message.data, dtype=np.int8)
     if data.size != info.width * info.height:
         raise RosError(
-            f"a map of {info.width} x {info.height} cells came with {data.size}",
-            hint="whoever publishes it should send width * height cells",
+            f"a map of {info.width} x {info.height} cells has {data.size}",
+            hint="data must have width * height cells",
         )
     origin = pose_of_message(info.origin)
     return OccupancyMap(data.reshape(info.height, info.width), float(info.resolution), origin)

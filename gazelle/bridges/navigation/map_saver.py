@@ -22,7 +22,10 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--free", type=float, default=25, help="free up to here, 0 to 100")
     parsed = parser.parse_args(found.plain)
     if not 0 <= parsed.free < parsed.occ <= 100:
-        raise RosError("the limits are wrong", hint="--free is below --occ, both from 0 to 100")
+        raise RosError(
+            "--free and --occ are out of range",
+            hint="--free must be below --occ, both from 0 to 100",
+        )
     with found.start() as node:
         message = node.wait_for_message("map", nav_msgs.msg.OccupancyGrid)
     grid = grid_of_message(message)

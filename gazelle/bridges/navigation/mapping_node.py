@@ -97,7 +97,7 @@ class MappingNode(ABC):
         while not stop.is_set() and not self._node.closed:
             self._scans.work(self._find, self._use)
             self._send()
-            self._diagnosis.look(waiting=self.place() is None)
+            self._diagnosis.check(waiting=self.place() is None)
 
     def _missing(self) -> list[str]:
         found = missing_links(self.frames.tree, "", self._odom, self._base, self._scans.frame)

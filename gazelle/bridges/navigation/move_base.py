@@ -73,7 +73,7 @@ class MoveBaseNode:
         self._bands = (
             BandTopics(node, law, self.frames, self._lock) if isinstance(law, TebPlanner) else None
         )
-        self._planner = PlannerTopics(node, self._law.planner, self._lock, self._in_whole)
+        self._planner = PlannerTopics(node, self._law.planner, self._lock, self._in_global_frame)
         self._whole_plans = node.advertise(f"~{controller}/global_plan", path, queue_size=1)
         self._local_plans = node.advertise(f"~{controller}/local_plan", path, queue_size=1)
         self._goals = node.advertise(
@@ -112,7 +112,7 @@ class MoveBaseNode:
         now = self._node.clock.now()
         with self._lock:
             ready = [costmap.cycle(now) for costmap in (self.whole, self.local)]
-            self._diagnosis.look(waiting=not all(ready))
+            self._diagnosis.check(waiting=not all(ready))
             if not all(ready):
                 return
             if not self._started:
@@ -161,7 +161,7 @@ class MoveBaseNode:
             if fault is not None:
                 self._abort("it was sent with an invalid quaternion")
                 return
-            found = self._in_whole(goal.target_pose)
+            found = self._in_global_frame(goal.target_pose)
             if found is None:
                 self._abort("its frame is not known")
                 return
@@ -181,7 +181,7 @@ class MoveBaseNode:
         self._server.set_aborted(None, f"Aborting on goal because {reason}")
         self._drive(STOP)
 
-    def _in_whole(self, target: geometry_msgs.msg.PoseStamped) -> Pose2 | None:
+    def _in_global_frame(self, target: geometry_msgs.msg.PoseStamped) -> Pose2 | None:
         """Convert a ``PoseStamped`` to the frame of the global costmap; None if unknown."""
         frame = target.header.frame_id.strip("/") or self.stack.whole.costmap.frame
         to_whole = self.frames.pose(self.stack.whole.costmap.frame, frame)
@@ -191,7 +191,7 @@ class MoveBaseNode:
         """Apply and publish the result of a step."""
         whole, local = self.stack.whole.costmap.frame, self.stack.local.costmap.frame
         feedback = move_base_msgs.msg.MoveBaseFeedback()
-        feedback.base_position = stamped(state.in_whole, whole, now)
+        feedback.base_position = stamped(state.global_pose, whole, now)
         self._server.publish_feedback(feedback)
         if step.velocity is not None:
             self._drive(step.velocity)
@@ -230,10 +230,10 @@ class MoveBaseNode:
         with self._lock:
             start = None
             if request.start.header.frame_id:
-                start = self._in_whole(request.start)
+                start = self._in_global_frame(request.start)
             elif self.whole.pose is not None:
                 start = self.whole.pose
-            goal = self._in_whole(request.goal)
+            goal = self._in_global_frame(request.goal)
             if start is None or goal is None or self._law.goal is not None:
                 return [path_message(np.zeros((0, 3)), frame, now)]
             plan = self._law.make_plan(start, goal, float(request.tolerance))

@@ -112,7 +112,7 @@ class NavsatTransformNode:
         self._node.clock.sleep(round(self.settings.delay * SECOND), stop.is_set)
         rate = Rate(self._node.clock, self.settings.frequency, reset=True)
         while not stop.is_set() and not self._node.closed:
-            self._diagnosis.look(waiting=self.placement is None)
+            self._diagnosis.check(waiting=self.placement is None)
             self.cycle()
             rate.sleep(stop.is_set)
 
@@ -276,7 +276,7 @@ class NavsatTransformNode:
 
     def _known(self) -> WorldPlacement:
         if self.placement is None:
-            raise ServiceError("the place of the world on the earth is not known yet")
+            raise ServiceError("the geographic origin of the world is not known yet")
         return self.placement
 
     def _missing(self) -> list[str]:

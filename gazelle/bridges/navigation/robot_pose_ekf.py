@@ -112,7 +112,7 @@ class RobotPoseEkfNode:
         """Publish poses at the rate of ``freq`` until shutdown."""
         rate = Rate(self._node.clock, max(self.settings.freq, 1.0), reset=True)
         while not stop.is_set() and not self._node.closed:
-            self._diagnosis.look(waiting=self.fusion.pose is None)
+            self._diagnosis.check(waiting=self.fusion.pose is None)
             self.cycle()
             rate.sleep(stop.is_set)
 

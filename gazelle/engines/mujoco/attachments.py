@@ -36,9 +36,11 @@ class LinkHolding:
     ) -> None:
         """Attach two links at their present relative pose; see the protocol."""
         if settling is not None and not 0.0 < settling <= LONGEST_STEP:
-            raise EngineError(f"links cannot come together within {settling} s", hint="above 0")
+            raise EngineError(
+                f"the settling time must be positive, not {settling} s", hint="above 0"
+            )
         pair = Attachment(parent, child, settling)
-        ends = [self._run.now().link(link).body for link in (parent, child)]
+        ends = [self._run.up_to_date().link(link).body for link in (parent, child)]
         if ends[0] == ends[1]:
             raise EngineError(f"'{parent}' and '{child}' cannot move against each other anyway")
         layout = self._run.prepare(pair)
@@ -61,7 +63,7 @@ class LinkHolding:
     def detach(self, parent: str, child: str, worlds: Worlds | None = None) -> None:
         """Detach two links that ``attach`` holds together."""
         name = Attachment(parent, child).name
-        layout = self._run.now()
+        layout = self._run.up_to_date()
         if name not in layout.attachments:
             raise EngineError(f"'{child}' was never attached to '{parent}'")
         self._run.batch.eq_active[rows_of(worlds), layout.attachments[name]] = 0.0

@@ -7,13 +7,13 @@ from mujoco import batch
 from numpy.typing import NDArray
 
 from gazelle.array_types import Worlds
-from gazelle.native.ray_frames import CarriedRays
+from gazelle.native.ray_frames import FrameRays
 
 
 class WorldBatch(batch.Batch):  # type: ignore[misc]  # MuJoCo has no types
     """Many copies of a model; see MuJoCo's."""
 
-    def meet(self, rays: CarriedRays, groups: NDArray[np.uint8], worlds: Worlds | None) -> None:
+    def meet(self, rays: FrameRays, groups: NDArray[np.uint8], worlds: Worlds | None) -> None:
         """Find what rays meet: their distances, -1 for nothing, geoms and normals.
 
         Args:

@@ -10,7 +10,7 @@ from gazelle.array_types import Floats
 from gazelle.description import Pose
 from gazelle.engines.collision import BodyContact, CollisionBody
 from gazelle.engines.mujoco.compiler.shapes import ShapeBuilder
-from gazelle.engines.mujoco.library import settle
+from gazelle.engines.mujoco.library import disable_logging
 from gazelle.formats import MeshData
 
 _OWN = "/"
@@ -29,7 +29,7 @@ class MujocoCollisionModel:
         ignored: Iterable[tuple[str, str]],
         padding: Mapping[str, float],
     ) -> None:
-        settle()
+        disable_logging()
         spec = mujoco.MjSpec()
         spec.option.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_FILTERPARENT)
         self._builder = ShapeBuilder(spec)

@@ -50,7 +50,7 @@ class _ContactRows:
     points: Floats
     depth: Floats
     axes: Floats
-    rubs: Floats
+    frictions: Floats
     forces: Floats
 
 
@@ -122,7 +122,7 @@ class ContactAccess:
 
     def contacts(self, sets: Sequence[Sequence[str]], worlds: Worlds | None = None) -> ContactTable:
         """Return the contacts of each of some sets of collisions; see the protocol."""
-        layout = self._run.now()
+        layout = self._run.up_to_date()
         listed = self._list_of(layout)
         found = self._all_contacts(np.arange(self._run.nworld) if worlds is None else worlds)
         acting = np.flatnonzero(found.address >= 0)
@@ -159,9 +159,9 @@ class ContactAccess:
         """Return what acts in contacts on one of their two geoms, as ``ContactTable.terms``."""
         axes = found.axes[rows].reshape(-1, 3, 3)
         cone = self._run.batch.model.opt.cone == mujoco.mjtCone.mjCONE_ELLIPTIC
-        rubs = None if cone else found.rubs[rows]
+        frictions = None if cone else found.frictions[rows]
         address = found.address[rows] + found.starts[rows]
-        wrench = _contact_forces(found.forces, address, found.dims[rows], rubs)
+        wrench = _contact_forces(found.forces, address, found.dims[rows], frictions)
         # MuJoCo's normals and forces are those from the first geom on the second.
         sign = np.where(mine == 1, 1.0, -1.0)[:, None]
         force = sign * (wrench[:, None, :3] @ axes)[:, 0]
@@ -213,7 +213,7 @@ def _read_contacts(data: mujoco.MjData) -> tuple[NDArray[Any], ...]:
 
 
 def _contact_forces(
-    forces: Floats, address: NDArray[Any], dims: NDArray[Any], rubs: Floats | None
+    forces: Floats, address: NDArray[Any], dims: NDArray[Any], frictions: Floats | None
 ) -> Floats:
     """Return force and torque of contacts, each in its own frame, shape (k, 6).
 
@@ -221,13 +221,13 @@ def _contact_forces(
         forces: Of all constraints.
         address: Of each contact's first, shape (k,).
         dims: Number of directions of each contact, shape (k,).
-        rubs: Coefficients of friction where friction is a pyramid, shape (k, 5); each of its
+        frictions: Coefficients of friction where friction is a pyramid, shape (k, 5); each of its
             edges is the normal and one direction times its coefficient. None for a cone.
     """
     wrench = np.zeros((len(address), 6))
     for width in sorted(set(dims.tolist())):
         rows = np.flatnonzero(dims == width)
-        edges = None if width == 1 else rubs
+        edges = None if width == 1 else frictions
         count = width if edges is None else 2 * (width - 1)
         values = forces[address[rows, None] + np.arange(count)]
         if edges is not None:

@@ -15,7 +15,7 @@ from gazelle.description import Model, World
 from gazelle.engines.hanging_links import HangingLinks
 from gazelle.engines.history import Call
 from gazelle.engines.laws import laws_of, with_profile
-from gazelle.engines.limits import MAX_WORLDS, check_model, check_world, physics_step, whole_number
+from gazelle.engines.limits import MAX_WORLDS, check_model, check_world, integer, physics_step
 from gazelle.engines.mujoco.attachments import LinkHolding
 from gazelle.engines.mujoco.batch import WorldBatch
 from gazelle.engines.mujoco.compiler.motors import motor_again
@@ -23,7 +23,7 @@ from gazelle.engines.mujoco.compiler.spec import CompilerInput
 from gazelle.engines.mujoco.compiler.welds import Attachment
 from gazelle.engines.mujoco.contacts import ContactAccess
 from gazelle.engines.mujoco.joint_wrenches import JointReactions
-from gazelle.engines.mujoco.library import settle
+from gazelle.engines.mujoco.library import disable_logging
 from gazelle.engines.mujoco.parameters import ParameterStore
 from gazelle.engines.mujoco.rays import MujocoRanges, RaySpaces
 from gazelle.engines.mujoco.state import rows_of
@@ -43,7 +43,7 @@ from gazelle.native.processors import processors
 from gazelle.native.system import System
 from gazelle.native.worker_pool import WorkerPool
 
-# Integrators that look at forces once in a step.
+# Integrators that evaluate forces once per step.
 _ONCE = (
     mujoco.mjtIntegrator.mjINT_EULER,
     mujoco.mjtIntegrator.mjINT_IMPLICIT,
@@ -89,10 +89,10 @@ class MujocoEngine:
         threads: int | None = None,
         late: bool = False,
     ) -> None:
-        settle()
+        disable_logging()
         step = physics_step(world.profile.max_step_size if time_step is None else time_step)
-        nworld = whole_number("nworld", nworld, most=MAX_WORLDS)
-        threads = None if threads is None else whole_number("threads", threads)
+        nworld = integer("nworld", nworld, most=MAX_WORLDS)
+        threads = None if threads is None else integer("threads", threads)
         if step != world.profile.max_step_size:
             world = with_profile(world, replace(world.profile, max_step_size=step))
         check_world(world)
@@ -101,11 +101,11 @@ class MujocoEngine:
         self.running = RunningWorlds(
             CompilerInput(world, step), nworld, make_batch, calls=self._calls_systems
         )
-        self._put_together(self.running)
+        self._make_parts(self.running)
         if not late:
             self.prepare()
 
-    def _put_together(self, run: RunningWorlds) -> None:
+    def _make_parts(self, run: RunningWorlds) -> None:
         """Make the parts, and expose their methods."""
         self._run = run
         self._steps = steps = ForcedSteps(run, lambda link: self.links[link].motion())
@@ -151,7 +151,7 @@ class MujocoEngine:
         sleepy = bool(model.opt.enableflags & mujoco.mjtEnableBit.mjENBL_SLEEP)
         return WorldBatch(model, nworld, threads, persistent=sleepy)
 
-    # -- what runs ---------------------------------------------------------------------
+    # -- models -----------------------------------------------------------------------
 
     @property
     def nworld(self) -> int:
@@ -174,20 +174,20 @@ class MujocoEngine:
         Raises:
             EngineError: The world cannot be simulated.
         """
-        self._run.now()
+        self._run.up_to_date()
 
     # -- time --------------------------------------------------------------------------
 
     def step(self, count: int = 1, systems: Sequence[System] = (), now_ns: int = 0) -> None:
         """Advance every world by ``count`` physics steps, and update systems that are due."""
-        self._made.make(whole_number("the number of steps", count, 0), systems, now_ns)
+        self._made.make(integer("the number of steps", count, 0), systems, now_ns)
 
     @checked(EngineError, after=True)
     def update(self, system: System, now_ns: int = 0) -> None:
         """Update a system now, whatever its rate; one of joints reads them and acts on them."""
         if isinstance(system, JointSystem):
             system.read(self._run.state.qpos, self._run.state.qvel)
-            system.bring(0, self._run.nworld, now_ns)
+            system.update_from_python(0, self._run.nworld, now_ns)
         else:
             self._pool.update(system, self._run.nworld, now_ns)
         if isinstance(system, JointSystem):
@@ -201,18 +201,18 @@ class MujocoEngine:
     def range_table(self, rays: Sequence[RangeRays]) -> RangeTable:
         """Return a table of range finders of one kind."""
         run = self._run
-        run.now()
+        run.up_to_date()
         if self._spaces is None or self._spaces.compiled is not run.compiled.model:
             self._spaces = RaySpaces(run.compiled.model, self._pool.size)
         return MujocoRanges(run, rays, self._spaces, self.update)
 
     def reset(self, worlds: Worlds | None = None) -> None:
         """Reset worlds to their initial state: poses, rest, no forces."""
-        self._run.now()
+        self._run.up_to_date()
         if worlds is not None:
             worlds = world_indices(worlds, self._run.nworld, EngineError)
         if self._run.sleepy:
-            self._run.batch.reset(worlds, stage=_NO_STAGE)  # wakes all that sleeps
+            self._run.batch.reset(worlds, stage=_NO_STAGE)  # wakes sleeping bodies
         self._run.batch.state[rows_of(worlds)] = self._run.initial
         self._run.overlaps.reset(self._run.batch, worlds)
         self._run.stale = True
@@ -243,7 +243,7 @@ class MujocoEngine:
             motors=motors,
             kinematic=recipe.kinematic - {model},
             attachments=self._held(model),
-            tyres=frozenset(n for n in recipe.tyres if not n.startswith(f"{model}::")),
+            slip_links=frozenset(n for n in recipe.slip_links if not n.startswith(f"{model}::")),
         )
         self._run.parameters.drop(model)
         self._run.change(changed)
@@ -259,7 +259,7 @@ class MujocoEngine:
 
     def update_world(self, world: World) -> None:
         """Update all of a world but its models: physics, gravity, air, lights, scene."""
-        self._run.now()
+        self._run.up_to_date()
         old, profile = self._run.recipe.world, world.profile
         check_world(world)
         recipe = replace(
@@ -280,7 +280,7 @@ class MujocoEngine:
     def revision(self) -> int:
         """Counts changes of models: systems then have to be bound to joints again."""
         if self._run.revision:  # before the first nothing can be bound, and nothing is changed
-            self._run.now()
+            self._run.up_to_date()
         return self._run.revision
 
     # -- saving ------------------------------------------------------------------------
@@ -290,7 +290,7 @@ class MujocoEngine:
 
         The state is not included.
         """
-        self._run.now()
+        self._run.up_to_date()
         recipe = self._run.recipe
         calls = [Call("make_kinematic", (name,)) for name in sorted(recipe.kinematic)]
         calls += [Call("add_motor", (m.joint, m.max_effort)) for m in recipe.motors.values()]
@@ -320,17 +320,17 @@ class MujocoEngine:
 
     def snapshot(self) -> Floats:
         """Return the whole dynamic state, shape (nworld, size)."""
-        self._run.now()
+        self._run.up_to_date()
         self._made.find_dropped()
         state: Floats = np.hstack((self._run.batch.state, self._run.overlaps.saved()))
         if self._run.sleepy:
-            # Sleeping is not in the state; all awake, this future and a restored one agree.
+            # Sleep is not part of the state: wake all, so that this run and a restored one stay equal.
             self.restore(state)
         return state
 
     def restore(self, state: Floats) -> None:
         """Restore what ``snapshot`` returned; the models must be the same."""
-        self._run.now()
+        self._run.up_to_date()
         rows, width = self._run.batch.state.shape
         if state.shape not in ((rows, width), (rows, width + self._run.overlaps.size)):
             raise EngineError(
@@ -350,14 +350,14 @@ class MujocoEngine:
 
         The array is a view and must not be kept.
         """
-        self._run.now()
+        self._run.up_to_date()
         view: Floats = self._run.batch.state
         return view
 
     @checked(EngineError)
     def write_state(self, places: Indices, values: Floats) -> None:
         """Set entries of the state, by their places in ``peek``, flattened."""
-        self._run.now()
+        self._run.up_to_date()
         before, state = self._run.state.qpos.copy(), self._run.batch.state.reshape(-1)
         state[indices("places", places, len(state), EngineError)] = values
         note_moves(self._run, before)

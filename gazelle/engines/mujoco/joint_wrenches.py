@@ -41,7 +41,7 @@ class JointReactions:
 
     def joint_wrench(self, joint: str, worlds: Worlds | None = None) -> Wrench:
         """Return the wrench of a joint's child on its parent; see the protocol."""
-        layout = self._run.now()
+        layout = self._run.up_to_date()
         if joint in layout.loops:
             return self._loop_wrench(layout.loops[joint], worlds)
         slot = look_up("joint between moving links", joint, layout.reactions)

@@ -13,7 +13,7 @@ from gazelle.description import Pose, Vector3
 from gazelle.engines.mujoco.compiler.geom_names import geom_ids
 from gazelle.engines.mujoco.compiler.motors import MotorSlot, motor_slots
 from gazelle.engines.mujoco.compiler.spec import Compiled
-from gazelle.engines.mujoco.compiler.wheel_slip import TyreSlot, tyre_slot
+from gazelle.engines.mujoco.compiler.wheel_slip import SlipSlot, slip_slot
 from gazelle.engines.mujoco.effort_limits import EffortLimits, effort_limits
 from gazelle.errors import EngineError, did_you_mean
 from gazelle.kinematics.tree import Closure, RootKind, TreeLink
@@ -122,7 +122,7 @@ class MujocoLayout:
         limits: Of efforts on joints.
         windy: MuJoCo's bodies of the links that wind pushes, by scoped name.
         springs: Indices of MuJoCo's contact pairs that are springs.
-        tyres: Of the links that may slip, by scoped name.
+        slip_links: Of the links that may slip, by scoped name.
     """
 
     links: Mapping[str, LinkSlot]
@@ -136,7 +136,7 @@ class MujocoLayout:
     limits: EffortLimits
     windy: Mapping[str, int]
     springs: Sequence[int]
-    tyres: Mapping[str, TyreSlot]
+    slip_links: Mapping[str, SlipSlot]
 
     def link(self, name: str) -> LinkSlot:
         """Return the slot of a link.
@@ -230,7 +230,7 @@ def layout_of(compiled: Compiled, attachments: Iterable[str] = ()) -> MujocoLayo
         limits,
         windy,
         compiled.springs,
-        {b.name: slot for b in every if (slot := tyre_slot(model, b.name)) is not None},
+        {b.name: slot for b in every if (slot := slip_slot(model, b.name)) is not None},
     )
 
 

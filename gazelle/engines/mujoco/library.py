@@ -10,7 +10,7 @@ import mujoco
 
 
 @functools.cache
-def settle() -> None:
+def disable_logging() -> None:
     """Disable MuJoCo's log files and timing; once in a process.
 
     It would write a log file into the working directory, while faults are raised here. And

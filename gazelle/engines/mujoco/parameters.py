@@ -91,13 +91,13 @@ def _read_limit(target: _Target, name: str, side: int) -> Floats:
 def _read_friction(target: _Target, name: str) -> Floats:
     geoms = target.geoms(name)
     if not geoms:
-        raise EngineError(f"collision '{name}' has no shape that could rub")
+        raise EngineError(f"collision '{name}' has no contact geometry")
     return np.array([target.batch.model.geom_friction[geoms[0], 0]])
 
 
 def _read_slip(target: _Target, name: str) -> Floats:
     target.layout.link(name)
-    slot = target.layout.tyres.get(name)
+    slot = target.layout.slip_links.get(name)
     return np.zeros(2) if slot is None else compiled_slip(target.batch.model, slot)
 
 
@@ -241,7 +241,7 @@ def _write_attachment(target: _Target, name: str, values: Floats) -> None:
 
 
 def _write_slip(target: _Target, name: str, values: Floats) -> None:
-    slot = target.layout.tyres.get(name)
+    slot = target.layout.slip_links.get(name)
     if slot is not None:  # a model that is only placed has none
         set_slip(target.batch, slot, values)
 
@@ -337,7 +337,7 @@ class ParameterStore:
         stiffen_worlds(batch)
         soften_rotors_of_worlds(batch)
         retune(batch, layout.springs)
-        for link, slot in layout.tyres.items():
+        for link, slot in layout.slip_links.items():
             set_slip(batch, slot, self.read(batch, layout, "wheel_slip", link))
 
     def drop(self, model: str) -> None:
@@ -364,7 +364,7 @@ def as_rows(kind: str, name: str, shape: tuple[int, ...], values: ArrayLike) -> 
     """Return values of some worlds, shape (n, width).
 
     Raises:
-        EngineError: They are no numbers, or too many or too few.
+        EngineError: They are not numbers, or too many or too few.
     """
     try:
         rows: Floats = np.broadcast_to(np.asarray(values, np.float64), shape)

@@ -1,4 +1,4 @@
-from gazelle.native.ray_frames cimport CarriedRays
+from gazelle.native.ray_frames cimport FrameRays
 from gazelle.native.system cimport System
 
 cdef extern from "threads.h":
@@ -7,7 +7,7 @@ cdef extern from "threads.h":
 
 
 cdef class RaySystem(System):
-    cdef CarriedRays rays
+    cdef FrameRays rays
     cdef object spaces, groups, poses
     cdef readonly object ranges
     cdef size_t model, kinematics, ray, poses_at, group_at

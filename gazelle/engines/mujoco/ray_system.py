@@ -10,7 +10,7 @@ from typing import Protocol
 import cython
 import numpy as np
 from cython.cimports.gazelle.native.memory import call_ray, call_two, floats
-from cython.cimports.gazelle.native.ray_frames import CarriedRays
+from cython.cimports.gazelle.native.ray_frames import FrameRays
 from cython.cimports.gazelle.native.system import System
 from numpy.typing import NDArray
 
@@ -65,7 +65,7 @@ class RaySystem(System):
 
     def __init__(
         self,
-        rays: CarriedRays,
+        rays: FrameRays,
         spaces: Workspaces,
         state: StateViews,
         bodies: NDArray[np.int64],

@@ -17,7 +17,7 @@ from gazelle.engines.mujoco.library import address_of, address_of_struct
 from gazelle.engines.mujoco.ray_system import RaySystem
 from gazelle.engines.mujoco.worlds import RunningWorlds
 from gazelle.engines.range_rays import RangeRays
-from gazelle.native.ray_frames import CarriedRays
+from gazelle.native.ray_frames import FrameRays
 from gazelle.native.system import System
 
 _SEEN = (COLLISION_GROUP, CLOSED_GROUP, OPEN_GROUP)
@@ -37,7 +37,7 @@ _MOST_PASSED = 8
 
 def meet(
     run: RunningWorlds,
-    rays: CarriedRays,
+    rays: FrameRays,
     worlds: Worlds | None,
     excluded: int = 0,
     *,
@@ -64,7 +64,7 @@ def beside(run: RunningWorlds) -> Floats:
 
 
 def meet_behind(
-    run: RunningWorlds, rays: CarriedRays, worlds: Worlds | None, own: Sequence[int]
+    run: RunningWorlds, rays: FrameRays, worlds: Worlds | None, own: Sequence[int]
 ) -> Hits:
     """Return the first hits of rays, except on some geoms of the world's body.
 
@@ -101,7 +101,7 @@ def cast_from(
         ignore_own: Whether rays pass through the shapes of the link.
     """
     origins, directions = (np.ascontiguousarray(each, np.float64)[None] for each in rays)
-    cast = CarriedRays(origins, directions, len(place.position))
+    cast = FrameRays(origins, directions, len(place.position))
     at, turned = np.ascontiguousarray(place.position), np.ascontiguousarray(place.quaternion)
     cast.aim(at[:, None], turned[:, None], beside(run))
     body = run.layout.link(link).body if ignore_own else 0
@@ -162,7 +162,7 @@ class MujocoRanges:
         update: Callable[[System], None],
     ) -> None:
         slots = [run.layout.link(each.link) for each in rays]
-        carried = CarriedRays(*joined(rays), run.nworld)
+        carried = FrameRays(*joined(rays), run.nworld)
         cast = RaySystem(
             carried,
             spaces,
@@ -185,7 +185,7 @@ class MujocoRanges:
             self._update(self._cast)
             return whole
         for world in worlds.tolist():
-            self._cast.bring(world * rows, (world + 1) * rows, 0)
+            self._cast.update_from_python(world * rows, (world + 1) * rows, 0)
         return whole[worlds]
 
 

@@ -13,7 +13,7 @@ _BY_DOF = ("qvel", "qacc_warmstart", "qfrc_applied")
 def transfer_state(
     old: Batch, old_layout: MujocoLayout, new: Batch, new_layout: MujocoLayout
 ) -> None:
-    """Copy the state of all joints, kinematic bodies, motors, attachments and tyres of both."""
+    """Copy the state of all joints, kinematic bodies, motors, attachments and slip bodies of both."""
     new.time[:] = old.time
     for name, slots in new_layout.joints.items():
         for here, there in zip(slots, old_layout.joints.get(name, ()), strict=False):
@@ -22,24 +22,26 @@ def transfer_state(
         former = old_layout.links.get(name)
         if former is not None:
             _copy_link(old, former, new, link)
-    _copy_tyres(old, old_layout, new, new_layout)
+    _copy_slip_bodies(old, old_layout, new, new_layout)
     for name, motor in new_layout.motors.items():
         former_motor = old_layout.motors.get(name)
         if former_motor is not None:
             new.userdata[:, motor.targets] = old.userdata[:, former_motor.targets]
-            new.userdata[:, motor.givings] = old.userdata[:, former_motor.givings]
+            new.userdata[:, motor.deflections] = old.userdata[:, former_motor.deflections]
     for name, column in new_layout.attachments.items():
         if name in old_layout.attachments:
             new.eq_active[:, column] = old.eq_active[:, old_layout.attachments[name]]
 
 
-def _copy_tyres(old: Batch, old_layout: MujocoLayout, new: Batch, new_layout: MujocoLayout) -> None:
-    for name, tyre in new_layout.tyres.items():
-        former = old_layout.tyres.get(name)
+def _copy_slip_bodies(
+    old: Batch, old_layout: MujocoLayout, new: Batch, new_layout: MujocoLayout
+) -> None:
+    for name, slip_body in new_layout.slip_links.items():
+        former = old_layout.slip_links.get(name)
         if former is not None:
             for field in _BY_DOF:
                 there = getattr(old, field)[:, list(former.dofs)]
-                getattr(new, field)[:, list(tyre.dofs)] = there
+                getattr(new, field)[:, list(slip_body.dofs)] = there
 
 
 def _copy_link(old: Batch, there: LinkSlot, new: Batch, here: LinkSlot) -> None:

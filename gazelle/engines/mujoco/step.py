@@ -59,7 +59,7 @@ class WorldSteps:
             DivergenceError: The state of some worlds became infinite.
         """
         run = self._run
-        run.now()
+        run.up_to_date()
         self._made = 0
         if not systems:
             self._advance(count)
@@ -156,7 +156,7 @@ class WorldSteps:
         return failed
 
     def _give_up(self, worlds: Worlds, count: int) -> None:
-        """Reset worlds that broke down, and say so.
+        """Reset diverged worlds, and report them.
 
         Raises:
             DivergenceError: Always.

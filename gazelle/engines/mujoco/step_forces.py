@@ -52,15 +52,15 @@ class ForcedSteps:
         layout, world, plain = self._run.layout, self._run.world, self._plain
         if plain is not None and plain[0] is layout and plain[1] is world:
             return self._step_batch(count)
-        tyres = layout.tyres
-        if not tyres and not self._is_forced():
+        slip_links = layout.slip_links
+        if not slip_links and not self._is_forced():
             if not layout.limits.dofs.size:
                 self._plain = layout, world
             return self._step_batch(count)
         failed: set[int] = set()
         for _ in range(count):
-            for tyre in tyres.values():
-                self._run.state.qpos[:, tyre.positions] = 0.0
+            for slip_body in slip_links.values():
+                self._run.state.qpos[:, slip_body.positions] = 0.0
             with self.forced():
                 failed |= self._step_batch(1)
             self._run.stale = True
@@ -108,9 +108,9 @@ class ForcedSteps:
         cause = divergence_report(self._run.layout, self._run.state, states, states[world])
         warnings.warn(
             EngineWarning(
-                f"something turns more than a quarter of a radian in a physics step of "
-                f"{self._run.time_step:g} s (fastest: {cause}); it precesses more than 1 % too slowly. "
-                "Take a smaller step"
+                f"a body turns by more than 0.25 rad in a physics step of "
+                f"{self._run.time_step:g} s (fastest: {cause}); its precession is more than 1 % too slow. "
+                "Use a smaller step"
             ),
             stacklevel=5,
         )

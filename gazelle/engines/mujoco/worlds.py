@@ -180,8 +180,8 @@ class RunningWorlds:
 
     # -- compiling ---------------------------------------------------------------------
 
-    def now(self) -> MujocoLayout:
-        """Return the layout of the running model, after pending changes."""
+    def up_to_date(self) -> MujocoLayout:
+        """Make pending changes; return the layout of the running model."""
         if self.pending is not None:
             self.change(self.pending)
         return self.layout
@@ -252,7 +252,7 @@ class RunningWorlds:
         pending = self.pending
         if pending is None or pending.kinematic == self.recipe.kinematic:
             return self.layout
-        return self.now()
+        return self.up_to_date()
 
     def refresh(self) -> None:
         """Compute the placement and motion of links that are not roots."""
@@ -285,7 +285,7 @@ class RunningWorlds:
 
     def parameter(self, kind: str, name: str, worlds: Worlds | None = None) -> Floats:
         """Return a physical parameter, shape (n, width)."""
-        layout = self.now()
+        layout = self.up_to_date()
         values = self.parameters.read(self.batch, layout, kind, name)
         return values[rows_of(worlds)]
 
@@ -293,13 +293,13 @@ class RunningWorlds:
         self, kind: str, name: str, values: ArrayLike, worlds: Worlds | None = None
     ) -> None:
         """Set a physical parameter, shape (width,) or (n, width); a reset does not undo it."""
-        layout = self.now()
+        layout = self.up_to_date()
         every = self.parameters.read(self.batch, layout, kind, name)
         rows = rows_of(worlds)
         every[rows] = as_rows(kind, name, every[rows].shape, values)
         check(kind, name, every)
         if kind == "wheel_slip":
-            self._fit_tyre(name)
+            self._add_slip_body(name)
         if kind == "joint_damping" and every.any() and not self.recipe.damped:
             self.change(replace(self.recipe, damped=True))
         if kind in _OFF_AXIS and self.batch.model.body_simple[layout.link(name).body]:
@@ -307,16 +307,16 @@ class RunningWorlds:
         self.parameters.write(self.batch, self.layout, (kind, name), every)
         self.stale = True
 
-    def _fit_tyre(self, link: str) -> None:
-        """Add a tyre to a link, on which its shapes slip.
+    def _add_slip_body(self, link: str) -> None:
+        """Add a slip body to a link, which gets its shapes.
 
         Raises:
-            EngineError: The link is no wheel.
+            EngineError: The link is not a wheel.
         """
         if self.layout.link(link).root == "free":
-            raise EngineError(f"link '{link}' is no wheel: nothing holds it")
-        if link not in self.recipe.tyres:
-            self.change(replace(self.recipe, tyres=self.recipe.tyres | {link}))
+            raise EngineError(f"link '{link}' is not a wheel: nothing holds it")
+        if link not in self.recipe.slip_links:
+            self.change(replace(self.recipe, slip_links=self.recipe.slip_links | {link}))
 
     def _unsimplify(self, kind: str, name: str, values: Floats) -> None:
         """Compile a link's inertia as general as worlds need it.

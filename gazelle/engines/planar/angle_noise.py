@@ -33,7 +33,7 @@ class AngleNoiseScanner(Scanner):
         seed: Of the noise.
 
     Raises:
-        EngineError: The fan cannot be, there is no such body, or there are more or fewer spreads
+        EngineError: The fan is invalid, there is no such body, or there are more or fewer spreads
             than mounts.
     """
 

@@ -169,9 +169,12 @@ class Beams:
             self.best[k] = v if met else best
 
     def between(self, first: float, span: float, turn: int) -> tuple[int, int]:
-        """Return the beams among angles found by ``cover``, from the first to before the last.
+        """Return the range of beams within an interval of angles that ``cover`` found.
 
-        ``turn`` is 0 and -1: a fan may go once around.
+        Args:
+            first: Lower end of the interval [rad].
+            span: Length of the interval [rad].
+            turn: Full turns to add to it. Callers try 0 and -1, as a fan may span a full turn.
         """
         first += TURN * turn
         lo = ceil(first * self.rate)

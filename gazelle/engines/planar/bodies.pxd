@@ -3,7 +3,7 @@ cdef class Bodies:
     cdef public double dt, widest
     cdef public bint euler, sweep
     cdef public double[:, ::1] rows, goal, command, velocity
-    cdef public double[:, ::1] kinds, drives, pieces, corners, looks
+    cdef public double[:, ::1] kinds, drives, pieces, corners, visuals
     cdef public double[:, ::1] statics, lanes
     cdef public double[::1] grid, near_grid
     cdef public int[::1] start, items, near_start, near_items, follow, cell

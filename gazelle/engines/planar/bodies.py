@@ -31,7 +31,7 @@ class Bodies:
         drives: Their drives, shape (nbody, DRIVE), or (1, DRIVE) if that is the same for all.
         pieces: Convex pieces, shape (n, PIECE).
         corners: Of the pieces, shape (n, 2).
-        looks: Primitives that rays meet, shape (n, PRIMITIVE).
+        visuals: Primitives that rays meet, shape (n, PRIMITIVE).
         statics: Static parts, shape (n, PRIMITIVE).
         lanes: The same, one column each, where there are few; else none.
         grid: See ``grid_cells``.

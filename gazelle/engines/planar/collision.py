@@ -54,7 +54,7 @@ TOUCH = 1e-9  # how far shapes may sink into each other and still only touch [m]
 FEW = cython.declare(cython.Py_ssize_t, 16)  # statics up to which all are gone through at once
 ROOM_MEASURED = 0.5  # radii of a body up to which room is measured
 INFINITE = cython.declare(cython.double, float("inf"))
-STEPS = cython.declare(cython.double, 4.0)  # for so many steps at least, else it is not worth it
+STEPS = cython.declare(cython.double, 4.0)  # minimum number of steps to merge
 
 
 def reaches(x: float, y: float, x0: float, y0: float, x1: float, y1: float, radius: float) -> bool:

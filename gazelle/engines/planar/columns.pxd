@@ -56,8 +56,8 @@ cdef enum:
     OMNIDIRECTIONAL = 1
     CAR = 2
     FAMILY = 0
-    FIRST_LOOK = 1
-    LAST_LOOK = 2
+    FIRST_VISUAL = 1
+    LAST_VISUAL = 2
     FIRST_PIECE = 3
     LAST_PIECE = 4
     RADIUS = 5

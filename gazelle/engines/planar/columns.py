@@ -83,8 +83,8 @@ CAR: Final = 2
 # What a body is, the same in all worlds: its family (members ignore each other), its
 # primitives and its pieces, from the first to before the last.
 FAMILY: Final = 0
-FIRST_LOOK: Final = 1
-LAST_LOOK: Final = 2
+FIRST_VISUAL: Final = 1
+LAST_VISUAL: Final = 2
 FIRST_PIECE: Final = 3
 LAST_PIECE: Final = 4
 RADIUS: Final = 5  # of all of it about the body's origin [m]

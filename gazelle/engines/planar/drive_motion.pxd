@@ -23,6 +23,6 @@ cdef double propose(Bodies w, Py_ssize_t first, Py_ssize_t last, double dt) noex
 @cython.locals(target=double)
 cdef double fastest(Bodies w, Py_ssize_t b, Py_ssize_t k, Py_ssize_t axis) noexcept nogil
 @cython.locals(b=Py_ssize_t, k=Py_ssize_t, d=Py_ssize_t, most=double)
-cdef Py_ssize_t looks_on_the_way(Bodies w, Py_ssize_t first, Py_ssize_t last) noexcept nogil
+cdef Py_ssize_t count_substeps(Bodies w, Py_ssize_t first, Py_ssize_t last) noexcept nogil
 @cython.locals(b=Py_ssize_t, c=Py_ssize_t, moved=Py_ssize_t)
 cdef Py_ssize_t commit(Bodies w, Py_ssize_t first, Py_ssize_t last) noexcept nogil

@@ -140,7 +140,7 @@ def propose(w: Bodies, first: int, last: int, dt: float) -> float:
     """Return propose moves of the bodies first to last; returns the longest distance of one [m].
 
     They are counted through all worlds. A state becomes STILL, MOVING, or BLOCKED if the command
-    is no number.
+    is not a number.
     """
     kinds = w.drives.shape[0]
     longest = 0.0
@@ -159,7 +159,7 @@ def propose(w: Bodies, first: int, last: int, dt: float) -> float:
             continue
         go(w, b, vx, vy, turn, dt)
         if not isfinite(w.goal[b, X] + w.goal[b, Y] + w.goal[b, YAW]):
-            w.state[b] = BLOCKED  # a command that is no number leads nowhere
+            w.state[b] = BLOCKED  # a command that is not a number leads nowhere
             w.velocity[b, 0] = w.velocity[b, 1] = w.velocity[b, 2] = 0.0
             continue
         w.state[b] = MOVING
@@ -175,7 +175,7 @@ def fastest(w: Bodies, b: int, k: int, axis: int) -> float:
     return max(abs(w.velocity[b, axis]), abs(target))
 
 
-def looks_on_the_way(w: Bodies, first: int, last: int) -> int:
+def count_substeps(w: Bodies, first: int, last: int) -> int:
     """Return the number of parts of a step such that no body moves farther than its stride.
 
     At most 1,000: a command may be anything, and what goes farther than that jumps.

@@ -15,7 +15,7 @@ from gazelle.description import Model, World
 from gazelle.engines.hanging_links import HangingLinks
 from gazelle.engines.history import Call
 from gazelle.engines.laws import with_profile
-from gazelle.engines.limits import check_model, check_world, physics_step, whole_number
+from gazelle.engines.limits import check_model, check_world, integer, physics_step
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar import unsupported
 from gazelle.engines.planar.fleet import Fleet
@@ -75,9 +75,9 @@ class PlanarEngine:
             world = with_profile(world, replace(world.profile, max_step_size=step))
         check_world(world)
         self._run = PlanarState(FleetInput(world, step, {}), nworld, threads)
-        self._take_over()
+        self._make_parts()
 
-    def _take_over(self) -> None:
+    def _make_parts(self) -> None:
         """Make the parts, and expose their methods."""
         run = self._run
         self.make_kinematic = run.make_kinematic
@@ -161,7 +161,7 @@ class PlanarEngine:
 
     def step(self, count: int = 1, systems: Sequence[System] = (), now_ns: int = 0) -> None:
         """Advance every world by ``count`` physics steps, and update systems that are due."""
-        self._run.steps.make(systems, whole_number("the number of steps", count, 0), now_ns)
+        self._run.steps.make(systems, integer("the number of steps", count, 0), now_ns)
 
     @checked(EngineError, after=True)
     def update(self, system: System, now_ns: int = 0) -> None:

@@ -47,7 +47,7 @@ class Fan:
         begin: Nearest range [m].
 
     Raises:
-        EngineError: A number cannot be.
+        EngineError: A number is invalid.
     """
 
     start: float
@@ -82,7 +82,7 @@ class Mount:
         z: Height above the body's frame [m].
 
     Raises:
-        EngineError: A number cannot be.
+        EngineError: A number is invalid.
     """
 
     body: int
@@ -98,7 +98,7 @@ class RangeNoise:
     """Normal noise on ranges: of standard deviation ``constant`` [m] plus ``share`` of them.
 
     Raises:
-        EngineError: A number is negative, or cannot be.
+        EngineError: A number is negative, or is invalid.
     """
 
     constant: float = 0.0
@@ -130,7 +130,7 @@ class Scanner:
         tick: Number of scans requested one by one so far; the noise of a scan depends on it.
 
     Raises:
-        EngineError: The fan cannot be, there is no such body, or a number cannot be.
+        EngineError: The fan is invalid, there is no such body, or a number is invalid.
     """
 
     def __init__(
@@ -265,12 +265,12 @@ class Scanner:
         Raises:
             EngineError: There is no such sensor, or it does not remember what beams met.
         """
-        table, looks = self.fleet.scene.table.rows, self.fleet.looks
+        table, visuals = self.fleet.scene.table.rows, self.fleet.visuals
         names = self._named()
         if sensor is not None:
             (row,) = indices("sensors", [sensor], len(self.names), EngineError)
             names = self.names[row]
-        return np.asarray(_look_up(names, table[:, c.GLOW], looks[:, c.GLOW]), np.float64)
+        return np.asarray(_look_up(names, table[:, c.GLOW], visuals[:, c.GLOW]), np.float64)
 
     def tags(self) -> NDArray[np.int64]:
         """Return the tag of the part that each beam met; 0 for nothing, shape as ``ranges``."""
@@ -279,7 +279,9 @@ class Scanner:
 
     def _named(self) -> Floats:
         if not len(self.names):
-            raise EngineError("the scanner does not remember what it met", hint="make it named")
+            raise EngineError(
+                "the scanner stores no ids of hit bodies", hint="create it with named=True"
+            )
         return self.names.reshape(self.ranges.shape)
 
     def _owners_in(self, worlds: Worlds) -> NDArray[np.int64]:
@@ -287,13 +289,13 @@ class Scanner:
         return np.ascontiguousarray(rows.ravel(), np.int64)
 
 
-def _look_up(names: Floats, statics: NDArray[Any], looks: NDArray[Any]) -> NDArray[Any]:
+def _look_up(names: Floats, statics: NDArray[Any], visuals: NDArray[Any]) -> NDArray[Any]:
     """Return the values of the primitives that were met; 0 for nothing."""
     names = np.abs(names)
     found = np.zeros(names.shape, statics.dtype)
     static, moving = (names > 0.0) & (names < c.NAMES), names >= c.NAMES
     found[static] = statics[names[static].astype(np.int64) - 1]
-    found[moving] = looks[(names[moving] % c.NAMES).astype(np.int64)]
+    found[moving] = visuals[(names[moving] % c.NAMES).astype(np.int64)]
     return found
 
 

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gazelle.argument_checks import checked, indices, world_indices
 from gazelle.array_types import Floats, Indices, Worlds
-from gazelle.engines.limits import MAX_WORLDS, physics_step, whole_number
+from gazelle.engines.limits import MAX_WORLDS, integer, physics_step
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.bodies import Bodies
 from gazelle.engines.planar.fleet_bodies import Body, Drive, drive_row, radius_of
@@ -54,7 +54,7 @@ class Fleet:
         changes: Grows whenever bodies move or are put somewhere.
 
     Raises:
-        EngineError: A shape, drive or number cannot be.
+        EngineError: A shape, drive or number is invalid.
     """
 
     def __init__(
@@ -69,8 +69,8 @@ class Fleet:
         cell: float = _CELL,
         threads: int | None = None,
     ) -> None:
-        nworld, time_step = whole_number("nworld", nworld, most=MAX_WORLDS), physics_step(time_step)
-        threads = None if threads is None else whole_number("threads", threads)
+        nworld, time_step = integer("nworld", nworld, most=MAX_WORLDS), physics_step(time_step)
+        threads = None if threads is None else integer("threads", threads)
         self.nworld, self.nbody = nworld, len(bodies)
         self.euler = euler
         self.changes = 0
@@ -94,7 +94,7 @@ class Fleet:
         shapes: dict[tuple[PlanarPart, ...], int] = {}
         drives: dict[Drive | None, Floats] = {}
         for k, body in enumerate(bodies):
-            self.kinds[k, c.FIRST_LOOK] = shapes.setdefault(body.parts, len(shapes))
+            self.kinds[k, c.FIRST_VISUAL] = shapes.setdefault(body.parts, len(shapes))
             self.kinds[k, c.FAMILY] = -1.0 - k if body.family is None else body.family
             if body.drive not in drives:
                 drives[body.drive] = drive_row(body.drive)
@@ -103,19 +103,19 @@ class Fleet:
             self.drives = self.drives[:1].copy()  # kernels take it as that of all
         tables = [primitives_of(parts) for parts in shapes]
         pieces = [pieces_of(parts) for parts in shapes]
-        looks = np.cumsum([0, *(len(table.rows) for table in tables)])
+        visuals = np.cumsum([0, *(len(table.rows) for table in tables)])
         bumps = np.cumsum([0, *(len(piece.rows) for piece in pieces)])
         corners = np.cumsum([0, *(len(piece.corners) for piece in pieces)])
         for piece, first in zip(pieces, corners, strict=False):
             piece.rows[:, c.FIRST] += first
-        self.looks = np.vstack([np.zeros((0, c.PRIMITIVE)), *(t.rows for t in tables)])
+        self.visuals = np.vstack([np.zeros((0, c.PRIMITIVE)), *(t.rows for t in tables)])
         self.tags = np.concatenate([np.zeros(0, np.int64), *(t.tags for t in tables)])
         self.pieces = np.vstack([np.zeros((0, c.PIECE)), *(p.rows for p in pieces)])
         self.corners = np.vstack([np.zeros((0, 2)), *(p.corners for p in pieces)])
         sizes = np.array([radius_of(parts) for parts in shapes])
-        shape = self.kinds[:, c.FIRST_LOOK].astype(int)
-        columns = (looks[:-1], looks[1:], bumps[:-1], bumps[1:], sizes)
-        for column, values in enumerate(columns, c.FIRST_LOOK):
+        shape = self.kinds[:, c.FIRST_VISUAL].astype(int)
+        columns = (visuals[:-1], visuals[1:], bumps[:-1], bumps[1:], sizes)
+        for column, values in enumerate(columns, c.FIRST_VISUAL):
             self.kinds[:, column] = values[shape] if self.nbody else 0.0
         strides = np.array([piece.rows[:, c.SLIM].max(initial=0.0) for piece in pieces])
         if self.nbody:
@@ -142,7 +142,7 @@ class Fleet:
             nbody=self.nbody, nworld=self.nworld, dt=time_step, widest=self._widest,
             euler=self.euler, sweep=sweep, rows=self.rows, goal=self.goal, command=self._command,
             velocity=self._velocity, kinds=self.kinds, drives=self.drives, pieces=self.pieces,
-            corners=self.corners, looks=self.looks, statics=scene.table.rows, lanes=scene.lanes,
+            corners=self.corners, visuals=self.visuals, statics=scene.table.rows, lanes=scene.lanes,
             grid=scene.grid, start=scene.start, items=scene.items, near_grid=scene.near_grid,
             near_start=scene.near_start, near_items=scene.near_items, head=self.head,
             follow=self.follow, cell=self.cell, state=self._state,
@@ -281,7 +281,7 @@ class Fleet:
         self.rows[:] = np.asarray(rows, np.float64).reshape(-1, c.BODY)
         self._relink(slice(None))
 
-    def take_over(self, body: int, other: Fleet, its: int) -> None:
+    def copy_from(self, body: int, other: Fleet, its: int) -> None:
         """Copy the state of a body from another fleet with as many worlds.
 
         Raises:
@@ -322,9 +322,9 @@ class Fleet:
         """Advance every world by ``count`` steps.
 
         Raises:
-            EngineError: It is no number of steps.
+            EngineError: It is not a number of steps.
         """
-        count = whole_number("the number of steps", count, 0)
+        count = integer("the number of steps", count, 0)
         if self._loop is None:
             self._loop = SystemLoop(self.systems(), self.nworld, 1, self.pool)
         self._loop.time = 0

@@ -36,7 +36,7 @@ class Drive:
         wheelbase: Between the axles of a car [m].
 
     Raises:
-        EngineError: A number cannot be.
+        EngineError: A number is invalid.
     """
 
     kind: DriveKind = "diff"
@@ -60,7 +60,7 @@ class Body:
         family: Bodies of one family neither see nor bump each other; None for its own.
 
     Raises:
-        EngineError: A number cannot be.
+        EngineError: A number is invalid.
     """
 
     parts: tuple[PlanarPart, ...]

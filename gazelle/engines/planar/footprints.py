@@ -54,9 +54,9 @@ def outline_of(fleet: Fleet, body: int, world: int = 0) -> PrimitiveTable:
     """
     (place,) = indices("bodies", [body], fleet.nbody, EngineError)
     (row,) = world_indices([world], fleet.nworld, EngineError)
-    first, last = fleet.kinds[place, [c.FIRST_LOOK, c.LAST_LOOK]].astype(int)
+    first, last = fleet.kinds[place, [c.FIRST_VISUAL, c.LAST_VISUAL]].astype(int)
     x, y, _, cos, sin, z = fleet.rows[row * fleet.nbody + place, :6]
-    rows = fleet.looks[first:last].copy()
+    rows = fleet.visuals[first:last].copy()
     rows[:, [c.LOW, c.HIGH]] += z
     # ``turned`` gives coordinates in a frame that is at (x, y): here it is the way back.
     turned(rows, cos, -sin, -(cos * x + sin * y), sin * x - cos * y)

@@ -30,7 +30,7 @@ class KindLayout:
         bodies: One for each model that can move.
         names: Of the models that ``bodies`` are of.
         passive: Names of those among them that move only when they are placed.
-        riders: Other bodies; in a fleet they come after all others.
+        extra_bodies: Other bodies; in a fleet they come after all others.
         statics: All that never moves.
         heights: Of rays beside those of lidars [m].
     """
@@ -38,7 +38,7 @@ class KindLayout:
     bodies: list[Body] = field(default_factory=list)
     names: list[str] = field(default_factory=list)
     passive: list[str] = field(default_factory=list)
-    riders: list[Body] = field(default_factory=list)
+    extra_bodies: list[Body] = field(default_factory=list)
     statics: PrimitiveTable = field(default_factory=lambda: primitives_of(()))
     heights: frozenset[float] = frozenset()
 
@@ -54,7 +54,7 @@ class KindLayoutFactory(Protocol):
         Args:
             models: Of the kind.
             kinematic: Names of kinematic models.
-            others: Bodies that come between ``bodies`` and ``riders``.
+            others: Bodies that come between ``bodies`` and ``extra_bodies``.
         """
 
 

@@ -17,11 +17,11 @@ from cython.cimports.gazelle.engines.planar.clear_space import ClearSpace
 from cython.cimports.gazelle.engines.planar.columns import (
     CIRCLE,
     COS,
-    FIRST_LOOK,
+    FIRST_VISUAL,
     GLOW,
     HIGH,
     KIND,
-    LAST_LOOK,
+    LAST_VISUAL,
     LOW,
     NAMES,
     SIN,
@@ -253,24 +253,24 @@ class Lanes:
         ex, ey = self.table[LANE_DX + i], self.table[LANE_DY + i]
         dx, dy = c * ex + s * ey, c * ey - s * ex
         height = self.table[LANE_HEIGHT + i] - self.bodies.rows[b, Z]
-        first = cython.cast(cython.Py_ssize_t, self.bodies.kinds[k, FIRST_LOOK])
-        last = cython.cast(cython.Py_ssize_t, self.bodies.kinds[k, LAST_LOOK])
+        first = cython.cast(cython.Py_ssize_t, self.bodies.kinds[k, FIRST_VISUAL])
+        last = cython.cast(cython.Py_ssize_t, self.bodies.kinds[k, LAST_VISUAL])
         for p in range(first, last):
             if (
-                self.bodies.looks[p, GLOW] < 0.0
-                or height < self.bodies.looks[p, LOW]
-                or height > self.bodies.looks[p, HIGH]
+                self.bodies.visuals[p, GLOW] < 0.0
+                or height < self.bodies.visuals[p, LOW]
+                or height > self.bodies.visuals[p, HIGH]
             ):
                 continue
             name = NAMES * (b + 1.0) + p
-            x0, y0 = self.bodies.looks[p, X0] - x, self.bodies.looks[p, Y0] - y
+            x0, y0 = self.bodies.visuals[p, X0] - x, self.bodies.visuals[p, Y0] - y
             if (
-                cython.cast(cython.int, self.bodies.looks[p, KIND])
+                cython.cast(cython.int, self.bodies.visuals[p, KIND])
                 & cython.cast(cython.int, CIRCLE)
             ) != 0:
-                self.meet_disc(i, dx, dy, x0, y0, self.bodies.looks[p, X1], name)
+                self.meet_disc(i, dx, dy, x0, y0, self.bodies.visuals[p, X1], name)
             else:
-                x1, y1 = self.bodies.looks[p, X1] - x, self.bodies.looks[p, Y1] - y
+                x1, y1 = self.bodies.visuals[p, X1] - x, self.bodies.visuals[p, Y1] - y
                 c0, c1 = dx * y0 - dy * x0, dx * y1 - dy * x1
                 self.meet_segment(i, c0, c1, x0 * y1 - x1 * y0, name)
 

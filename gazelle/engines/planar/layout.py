@@ -97,7 +97,7 @@ def build(recipe: FleetInput, nworld: int, threads: int | None) -> tuple[Fleet, 
     parts = [part for each in converted.values() if each.still for part in statics_of(each, levels)]
     profile = recipe.world.profile
     fleet = Fleet(
-        [*of_kind.bodies, *(body_of(each, levels) for each in movers), *of_kind.riders],
+        [*of_kind.bodies, *(body_of(each, levels) for each in movers), *of_kind.extra_bodies],
         joined(of_kind.statics, primitives_of(parts)) if own else parts,
         nworld=nworld,
         time_step=recipe.time_step,

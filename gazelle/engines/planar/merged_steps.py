@@ -33,8 +33,8 @@ from cython.cimports.gazelle.engines.planar.columns import (
 )
 from cython.cimports.gazelle.engines.planar.drive_motion import (
     PI,
+    count_substeps,
     driven,
-    looks_on_the_way,
     remember_turn,
     stride,
     twist_of,
@@ -139,7 +139,7 @@ def expect_move(w: Bodies, b: int, k: int) -> bool:
             w.velocity[b, axis] = 0.0
             continue
         speed = driven(w, b, k, axis, w.dt)
-        if speed != wanted(w, b, k, axis):  # nor is what is no number
+        if speed != wanted(w, b, k, axis):  # nor is what is not a number
             return False
         w.velocity[b, axis] = speed
     vx, vy, turn = twist_of(w, b, k)
@@ -181,7 +181,7 @@ def steps_alike(w: Bodies, world: int, left: int, fresh: bool) -> int:
     last step, or if ``fresh`` as they would in the next if nothing blocked them.
     """
     begin, end = world * w.nbody, (world + 1) * w.nbody
-    if w.sweep and looks_on_the_way(w, begin, end) > 1:
+    if w.sweep and count_substeps(w, begin, end) > 1:
         return 0
     longest = longest_move(w, begin, end, fresh)
     most = 0.0 if longest < 0.0 else 1.0 * left

@@ -10,7 +10,7 @@ from cython.cimports.gazelle.engines.planar.collision import obstructed, statics
 from cython.cimports.gazelle.engines.planar.columns import BLOCKED, MOVING, UNDECIDED
 from cython.cimports.gazelle.engines.planar.drive_motion import (
     commit,
-    looks_on_the_way,
+    count_substeps,
     propose,
 )
 from cython.cimports.gazelle.engines.planar.grid_cells import relink
@@ -58,7 +58,7 @@ def advance_world(w: Bodies, world: int) -> None:
     With ``sweep`` what is in the way is looked for so often that nothing is jumped over.
     """
     begin, end = world * w.nbody, (world + 1) * w.nbody
-    parts = looks_on_the_way(w, begin, end) if w.sweep else 1
+    parts = count_substeps(w, begin, end) if w.sweep else 1
     advance_bodies(w, begin, end, parts, w.dt / parts)
 
 

@@ -19,14 +19,14 @@ class RoamingSettings:
     Attributes:
         cruise: Speed ahead [m/s].
         turning: Fastest turn [rad/s].
-        shy: Distance at which to turn away from something [m].
+        avoid_distance: Distance at which to turn away from something [m].
         keep: Seconds for which a turn is kept.
         back: Seconds for which to back off from what stopped it.
     """
 
     cruise: float = 0.4
     turning: float = 1.0
-    shy: float = 0.6
+    avoid_distance: float = 0.6
     keep: float = 1.0
     back: float = 1.0
 
@@ -37,7 +37,7 @@ class Roaming:
     Args:
         fleet: Fleet to drive.
         scanner: Ranges that it looks at, one sensor a body at most; None to drive blind.
-        manner: Parameters of its motion.
+        settings: Parameters of its motion.
         seed: Of its turns.
 
     Attributes:
@@ -48,10 +48,10 @@ class Roaming:
         self,
         fleet: Fleet,
         scanner: Scanner | None = None,
-        manner: RoamingSettings | None = None,
+        settings: RoamingSettings | None = None,
         seed: int = 0,
     ) -> None:
-        manner = manner or RoamingSettings()
+        settings = settings or RoamingSettings()
         self.fleet, self.scanner = fleet, scanner
         total = fleet.nworld * fleet.nbody
         sensor, ranges = np.full(total, -1, np.int64), np.zeros((0, 1))
@@ -65,11 +65,11 @@ class Roaming:
             sensor,
             np.zeros((total, 2), np.int64),
             seed=seed,
-            cruise=manner.cruise,
-            turning=manner.turning,
-            shy=manner.shy,
-            keep=round(manner.keep / fleet.time_step),
-            back=round(manner.back / fleet.time_step),
+            cruise=settings.cruise,
+            turning=settings.turning,
+            avoid_distance=settings.avoid_distance,
+            keep=round(settings.keep / fleet.time_step),
+            back=round(settings.back / fleet.time_step),
         )
         looking = [] if scanner is None or not len(scanner.owners) else [scanner.system]
         self._loop = SystemLoop(

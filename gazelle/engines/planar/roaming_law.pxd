@@ -7,8 +7,8 @@ cdef class RoamingLaw(System):
     cdef Bodies bodies
     cdef double[:, ::1] ranges
     cdef long long[::1] sensor
-    cdef public long long[:, ::1] mood
-    cdef double cruise, turning, shy
+    cdef public long long[:, ::1] turn_state
+    cdef double cruise, turning, avoid_distance
     cdef long long keep, back, seed
     cpdef void choose(self, long long time)
     @cython.locals(b=Py_ssize_t)

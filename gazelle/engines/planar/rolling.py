@@ -49,7 +49,7 @@ class Rolling(System):
         self.steady = True
 
     def update(self, first: int, last: int, time: int) -> None:  # noqa: ARG002  time plays no part
-        """Command what motors want in the worlds first to last."""
+        """Command the target velocities of motors in worlds first to last."""
         for world in range(first, last):
             drive_joints(self.joints, world)
             drive_bases(self.joints, self.bodies, world)
@@ -102,7 +102,7 @@ def drive_bases(own: Joints, w: Bodies, world: int) -> None:
 
 
 def turn(own: Joints, start: int, number: int, count: int, dt: float) -> None:
-    """Turn some joints, counted through all worlds, for ``count`` steps of so many seconds."""
+    """Turn some joints, counted through all worlds, for ``count`` steps of a given number of seconds."""
     angles = cython.declare(cython.double[WIDE])
     ways = cython.declare(cython.double[WIDE])
     least = cython.declare(cython.double[WIDE])

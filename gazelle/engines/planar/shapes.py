@@ -52,7 +52,7 @@ class PrimitiveTable:
         raster: The largest bitmap among them, if there is one.
 
     Raises:
-        EngineError: The shapes do not fit, or a number cannot be.
+        EngineError: The shapes do not fit, or a number is invalid.
     """
 
     rows: Floats
@@ -101,7 +101,7 @@ def segments_of(
         solid: Whether bodies collide with it.
 
     Raises:
-        EngineError: A line has more or fewer numbers, or one that cannot be.
+        EngineError: A line has more or fewer numbers, or one that is impossible.
     """
     lines = np.asarray(lines, np.float64)
     if lines.ndim != 2 or lines.shape[1] != 4:  # x0, y0, x1, y1

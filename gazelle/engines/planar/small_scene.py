@@ -18,9 +18,9 @@ def front_faces_of(fleet: Fleet) -> FrontFaces | None:
     Each thread needs one of its own, as scans are made on it.
     """
     statics = fleet.scene.table.rows
-    looks = [_rows_of(fleet, body) for body in range(fleet.nbody)]
-    flat = [_sides(rows) for rows in (statics, *looks)]
-    discs, fixed = [_discs(rows) for rows in looks], _discs(statics)
+    visuals = [_rows_of(fleet, body) for body in range(fleet.nbody)]
+    flat = [_sides(rows) for rows in (statics, *visuals)]
+    discs, fixed = [_discs(rows) for rows in visuals], _discs(statics)
     if fleet.scene.cells > 1 or sum(map(len, (*flat, *discs, fixed))) > ROOM:
         return None
     ends = np.cumsum([len(sides) for sides in flat])
@@ -31,8 +31,8 @@ def front_faces_of(fleet: Fleet) -> FrontFaces | None:
 
 
 def _rows_of(fleet: Fleet, body: int) -> Floats:
-    first, last = fleet.kinds[body, [c.FIRST_LOOK, c.LAST_LOOK]].astype(int)
-    rows: Floats = fleet.looks[first:last]
+    first, last = fleet.kinds[body, [c.FIRST_VISUAL, c.LAST_VISUAL]].astype(int)
+    rows: Floats = fleet.visuals[first:last]
     return rows
 
 

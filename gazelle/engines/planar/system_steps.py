@@ -60,7 +60,7 @@ class SystemSteps:
             loop.time = now_ns
             loop.run(now_ns + count * loop.step, threads)
         except OverflowError:  # free of cost, unlike a look at the time before each step
-            raise EngineError(f"no clock counts {count} steps from {now_ns} ns") from None
+            raise EngineError(f"the clock cannot count {count} steps from {now_ns} ns") from None
         self._fleet.changes += 1
 
     def _assemble(self, systems: Sequence[System]) -> tuple[SystemLoop, int]:

@@ -16,7 +16,8 @@ from gazelle.errors import EngineError
 def refuse(what: str) -> EngineError:
     """Return the error for a feature that the plane lacks."""
     return EngineError(
-        f"the planar engine knows no forces, so it has not {what}", hint="use the engine mujoco"
+        f"the planar engine computes no forces and does not support {what}",
+        hint="use the engine mujoco",
     )
 
 

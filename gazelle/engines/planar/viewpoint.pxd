@@ -37,6 +37,6 @@ cdef class Viewpoint:
     @cython.locals(many=cython.bint, away=cython.bint)
     cdef void draw_others(self, Py_ssize_t n) noexcept nogil
     @cython.locals(circle=cython.bint, back=cython.bint)
-    cdef void draw_looks(
+    cdef void draw_visuals(
         self, Py_ssize_t lo, Py_ssize_t hi, Py_ssize_t k, double height, Py_ssize_t i, bint away,
         double name) noexcept nogil

@@ -330,7 +330,7 @@ class Viewpoint:
             height = self.z - self.bodies.rows[b, col.Z]
             name = col.NAMES * (b + 1.0)
             if not many:
-                self.draw_looks(0, count, k, height, i, away, name)
+                self.draw_visuals(0, count, k, height, i, away, name)
                 continue
             for turn in range(2):
                 lo, hi = self.beams.between(
@@ -338,9 +338,9 @@ class Viewpoint:
                 )
                 if lo >= hi or (away and self.beams.hidden(lo, hi, 1.0 / nearest)):
                     continue
-                self.draw_looks(lo, hi, k, height, i, away, name)
+                self.draw_visuals(lo, hi, k, height, i, away, name)
 
-    def draw_looks(
+    def draw_visuals(
         self, lo: int, hi: int, k: int, height: float, i: int, away: bool, name: float,
     ) -> None:  # fmt: skip
         """Draw primitives of the i-th body, of kind k, into beams lo to hi.
@@ -349,20 +349,20 @@ class Viewpoint:
         """
         x, y = self.sorted.table[scan.C_X0 + i], self.sorted.table[scan.C_Y0 + i]
         cos, sin = self.sorted.table[scan.C_COS + i], self.sorted.table[scan.C_SIN + i]
-        first = cython.cast(cython.Py_ssize_t, self.bodies.kinds[k, col.FIRST_LOOK])
-        last = cython.cast(cython.Py_ssize_t, self.bodies.kinds[k, col.LAST_LOOK])
+        first = cython.cast(cython.Py_ssize_t, self.bodies.kinds[k, col.FIRST_VISUAL])
+        last = cython.cast(cython.Py_ssize_t, self.bodies.kinds[k, col.LAST_VISUAL])
         for p in range(first, last):
             if (
-                self.bodies.looks[p, col.GLOW] < 0.0
-                or height < self.bodies.looks[p, col.LOW]
-                or height > self.bodies.looks[p, col.HIGH]
+                self.bodies.visuals[p, col.GLOW] < 0.0
+                or height < self.bodies.visuals[p, col.LOW]
+                or height > self.bodies.visuals[p, col.HIGH]
             ):
                 continue
-            ax, ay = self.bodies.looks[p, col.X0], self.bodies.looks[p, col.Y0]
-            bx, by = self.bodies.looks[p, col.X1], self.bodies.looks[p, col.Y1]
+            ax, ay = self.bodies.visuals[p, col.X0], self.bodies.visuals[p, col.Y0]
+            bx, by = self.bodies.visuals[p, col.X1], self.bodies.visuals[p, col.Y1]
             x0, y0 = x + cos * ax - sin * ay, y + sin * ax + cos * ay
             x1, y1 = x + cos * bx - sin * by, y + sin * bx + cos * by
-            kind = cython.cast(cython.int, self.bodies.looks[p, col.KIND])
+            kind = cython.cast(cython.int, self.bodies.visuals[p, col.KIND])
             circle = (kind & cython.cast(cython.int, col.CIRCLE)) != 0
             cross = x0 * x0 + y0 * y0 - bx * bx if circle else x0 * y1 - x1 * y0
             back = cross > 0.0 and not circle

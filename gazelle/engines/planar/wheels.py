@@ -62,7 +62,7 @@ def wheel_of(joint: str, link: Link, pose: Pose, axis: Sequence[float]) -> Wheel
 def rolling(wheels: Sequence[Wheel]) -> Floats:
     """Return the matrix from wheel speeds [rad/s] to the twist (vx, vy, turning), shape (3, wheels).
 
-    Each wheel rolls along and does not slip sideways; where that cannot be, as with four
+    Each wheel rolls along and does not slip sideways; where that is impossible, as with four
     wheels that cannot steer, the error is least.
     """
     rows, speeds = [], np.zeros((2 * len(wheels), len(wheels)))

@@ -95,7 +95,7 @@ class PlanarState:
         self._start(recipe, *build(recipe, fleet.nworld, self._threads))
         for name, body in self.layout.bodies.items():
             if name in layout.bodies:
-                self.fleet.take_over(body, fleet, layout.bodies[name])
+                self.fleet.copy_from(body, fleet, layout.bodies[name])
         for name, (first, count) in self.layout.joints.items():
             if name in layout.joints:
                 here, there = slice(first, first + count), layout.joints[name][0]

@@ -9,7 +9,7 @@ from gymnasium.vector import AutoresetMode
 
 from gazelle.envs.agv_fleet.task import AGVFleetTask, FleetOptions, FleetSettings
 from gazelle.envs.limits import MAX_ENVS
-from gazelle.envs.options import check_whole, read_options
+from gazelle.envs.options import check_integer, read_options
 from gazelle.envs.single_env import TaskEnv
 from gazelle.envs.vector_env import TaskVectorEnv
 
@@ -96,7 +96,7 @@ class AGVFleetVectorEnv(TaskVectorEnv):
     * v0: first version.
 
     Raises:
-        TaskError: An option cannot be.
+        TaskError: An option is invalid.
     """
 
     @staticmethod
@@ -118,7 +118,7 @@ class AGVFleetVectorEnv(TaskVectorEnv):
         autoreset_mode: AutoresetMode | str = AutoresetMode.SAME_STEP,
         **options: Unpack[FleetOptions],
     ) -> None:
-        check_whole("num_envs", num_envs, 1, MAX_ENVS)
+        check_integer("num_envs", num_envs, 1, MAX_ENVS)
         settings = read_options(FleetSettings, options)
         task = AGVFleetTask(num_envs, settings)
         super().__init__(

@@ -32,7 +32,7 @@ class AGVFleetParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has 
         options: As there; ``agents`` is their number.
 
     Raises:
-        TaskError: An option cannot be.
+        TaskError: An option is invalid.
     """
 
     metadata: ClassVar[dict[str, Any]] = {

@@ -17,7 +17,7 @@ from gazelle.envs.batched_task import BatchedTask, Info, TaskOutcome
 from gazelle.envs.contract import PolicyContract
 from gazelle.envs.floor_plan import FloorPlan
 from gazelle.envs.limits import MAX_AGENTS, MAX_LIDAR_SAMPLES
-from gazelle.envs.options import TaskOptions, TaskSettings, check_name, check_whole
+from gazelle.envs.options import TaskOptions, TaskSettings, check_integer, check_name
 from gazelle.envs.polar import heading_to
 from gazelle.errors import TaskError
 from gazelle.simulation import Simulation
@@ -64,8 +64,8 @@ class FleetSettings(TaskSettings):
     def __post_init__(self) -> None:
         # A zero-argument super() does not work in a dataclass with slots.
         TaskSettings.__post_init__(self)
-        check_whole("agents", self.agents, 1, MAX_AGENTS)
-        check_whole("lidar_samples", self.lidar_samples, 2, MAX_LIDAR_SAMPLES)
+        check_integer("agents", self.agents, 1, MAX_AGENTS)
+        check_integer("lidar_samples", self.lidar_samples, 2, MAX_LIDAR_SAMPLES)
         check_name("kind of places", str(self.places), PLACES)
         if self.engine != "planar":
             raise TaskError(

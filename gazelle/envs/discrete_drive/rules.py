@@ -30,7 +30,7 @@ class DriveRules:
     every: int
     """Stride of the observed rays: 0, n, 2n, ..."""
     decimals: int | None = None
-    """Ranges are rounded to so many decimals; None: cut to whole metres."""
+    """Ranges are rounded to a given number of decimals; None: cut to whole metres."""
     far: float = 6.0
     """Observed where nothing is in range, and upper bound of the space [m]."""
     least: float = 0.0

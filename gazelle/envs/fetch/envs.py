@@ -10,7 +10,7 @@ from gazelle.envs.fetch.options import FetchOptions, FetchSettings
 from gazelle.envs.fetch.task import FetchTask
 from gazelle.envs.goal_envs import TaskGoalEnv, TaskGoalVectorEnv
 from gazelle.envs.limits import MAX_ENVS
-from gazelle.envs.options import check_whole, read_options
+from gazelle.envs.options import check_integer, read_options
 
 
 class FetchEnv(TaskGoalEnv):
@@ -140,7 +140,7 @@ class FetchVectorEnv(TaskGoalVectorEnv):
         autoreset_mode: AutoresetMode | str = AutoresetMode.SAME_STEP,
         **options: Unpack[FetchOptions],
     ) -> None:
-        check_whole("num_envs", num_envs, 1, MAX_ENVS)
+        check_integer("num_envs", num_envs, 1, MAX_ENVS)
         settings = read_options(FetchSettings, options)
         super().__init__(
             FetchTask(task, num_envs, settings),

@@ -10,7 +10,7 @@ from gazelle.envs.limits import MAX_ENVS
 from gazelle.envs.options import (
     NavigationOptions,
     NavigationSettings,
-    check_whole,
+    check_integer,
     held_out_options,
     read_options,
 )
@@ -240,7 +240,7 @@ class TurtleBot3VectorEnv(TaskVectorEnv):
         autoreset_mode: AutoresetMode | str = AutoresetMode.SAME_STEP,
         **options: Unpack[NavigationOptions],
     ) -> None:
-        check_whole("num_envs", num_envs, 1, MAX_ENVS)
+        check_integer("num_envs", num_envs, 1, MAX_ENVS)
         settings = read_options(NavigationSettings, options)
         task = TurtleBot3Task(stage, num_envs, continuous=self.continuous, settings=settings)
         super().__init__(

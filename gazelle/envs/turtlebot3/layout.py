@@ -92,7 +92,7 @@ class GoalLayout:
                 scene = TaskScene(STAGES[self._stage], flat, 1)
         except Error as error:
             raise TaskError(
-                f"free space is looked for in the plane, where this does not go: {error}",
+                f"free space cannot be computed in the plane: {error}",
                 hint='goals and starts as published (goals="published", starts="published") '
                 "need no free space",
             ) from error

@@ -13,7 +13,7 @@ from gazelle.formats.lint.diagnostic import Diagnostic, links_of, moving_links_o
 # Collision meshes above this many triangles slow every contact and ray.
 _MOST_TRIANGLES = 20_000
 
-# A contact spring's period should take at least so many physics steps.
+# A contact spring's period should take at least this number of physics steps.
 _STEPS_A_PERIOD = 2.0
 
 # Stiffer springs are taken as rigid by everyone; SDF's default is 1e12 [N/m].

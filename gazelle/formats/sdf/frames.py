@@ -112,7 +112,7 @@ class Scope:
             if name in self._open:
                 steps = list(self._open)
                 circle = " -> ".join([*steps[steps.index(name) :], name])
-                raise values.fail(node, f"the poses lead in a circle: {circle}")
+                raise values.fail(node, f"the poses form a cycle: {circle}")
             entry = self.entries.get(name)
             if entry is None:
                 return self._resolve_inner(name, node)
@@ -185,7 +185,7 @@ class Scope:
             if name in seen:
                 steps = list(seen)
                 circle = " -> ".join([*steps[steps.index(name) :], name])
-                raise values.fail(node, f"the frames are attached in a circle: {circle}")
+                raise values.fail(node, f"the attached frames form a cycle: {circle}")
             seen[name] = None
             entry = self.entries.get(name)
             if entry is None:

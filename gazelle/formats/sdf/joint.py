@@ -72,7 +72,7 @@ def _joined(node: Parameters, scope: Scope) -> tuple[JointType, str, str]:
     """
     parent, child = (body(node, tag, scope) for tag in ("parent", "child"))
     if parent == child:
-        raise values.fail(node, f"the joint holds the link '{child}' to itself")
+        raise values.fail(node, f"the joint connects the link '{child}' to itself")
     return joint_type(node), parent, child
 
 
@@ -149,7 +149,7 @@ def body(node: Parameters, tag: str, scope: Scope) -> str:
     if text != MODEL and not scope.has(text):
         raise values.fail(
             element,
-            f"the joint's {tag} '{text}' is no link or frame of this model",
+            f"the joint's {tag} '{text}' is not a link or frame of this model",
             hint=did_you_mean(text, scope.entries),
         )
     return scope.body_of(text, element)

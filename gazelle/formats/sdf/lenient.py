@@ -62,7 +62,7 @@ def flag(node: Parameters, text: str, what: str, _: Reading) -> str:
 
 
 def vector(count: int) -> Callable[[Parameters, str, str, Reading], str]:
-    """Return a reader of so many numbers; missing ones are 0, and 1 in a ``<scale>``."""
+    """Return a reader of ``count`` numbers; missing ones are 0, and 1 in a ``<scale>``."""
 
     def read(node: Parameters, text: str, what: str, reading: Reading) -> str:
         try:
@@ -131,7 +131,7 @@ def span(node: Parameters, reading: Reading) -> Parameters:
     """Return a ``<range>`` of a lidar: it grows from 0.
 
     Raises:
-        FormatError: A limit is no number.
+        FormatError: A limit is not a number.
     """
     if node.find("min") is None or node.find("max") is None:
         return node

@@ -245,7 +245,7 @@ class _Passing:
         if entry.text or entry.children:
             part = self._modified(part, entry, deeper)
         elif part.children:
-            self.reading.note(f"this says nothing new of <{entry.tag}>", entry)
+            self.reading.note(f"this changes nothing in <{entry.tag}>", entry)
         else:
             default = schema.types().get(deeper, {}).get("default", "")
             part = replace(self._with_attributes(part, entry, deeper), text=default)
@@ -280,7 +280,7 @@ class _Passing:
         return node
 
     def _unknown(self, node: Parameters, entry: Parameters, action: str) -> Parameters:
-        text = f"'{action}' is no action" if action else "an 'action' is needed here"
+        text = f"'{action}' is not an action" if action else "an 'action' is needed here"
         hint = did_you_mean(action, _ACTIONS) if action else f"one of {', '.join(_ACTIONS)}"
         self.reading.fault(f"{text}: left out", entry, hint)
         return node

@@ -27,7 +27,7 @@ _ROUNDS = 20
 _CLUSTERS = 500
 """More models than this are spread at random instead of evenly."""
 _SAMPLES, _FEWEST, _MOST = 40, 10, 8000
-"""Points for each cluster, at least so many of each, and of all together."""
+"""Points for each cluster, at least a minimum number of each, and of all together."""
 
 
 @dataclass(frozen=True, slots=True)

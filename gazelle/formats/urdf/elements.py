@@ -49,8 +49,7 @@ def read_origin(node: Parameters | None) -> Pose:
 def read_inertial(node: Parameters | None, reading: Reading) -> Inertial | None:
     """Read ``<inertial>``; a mass of zero is allowed here and means "no body of its own".
 
-    So it is where the mass is missing or no number, as libsdformat has it; moments that are
-    missing or no numbers are zero.
+    As in libsdformat, a mass or moment of inertia that is missing or not a number is zero.
 
     Raises:
         FormatError: The mass is negative or not finite.

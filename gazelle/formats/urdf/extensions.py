@@ -94,7 +94,7 @@ def drop_unused(
     for reference, nodes in list(extensions.by_reference.items()):
         if reference and reference not in links and reference not in joints:
             reading.note(
-                f"<gazebo> refers to '{reference}', which is no link or joint, and was ignored",
+                f"<gazebo> refers to '{reference}', which is not a link or joint, and was ignored",
                 nodes[0],
                 did_you_mean(reference, links | joints),
             )

@@ -119,7 +119,7 @@ def _with_mass(found: list[LumpedLink], root: Parameters, reading: Reading) -> l
         reading.note(
             "no link has a mass: the robot can be shown and planned for, but not simulated",
             root,
-            "add an <inertial> to each link that shall move",
+            "add an <inertial> to each link that moves",
         )
         return found
     kept: list[LumpedLink] = []

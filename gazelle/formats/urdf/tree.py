@@ -132,7 +132,7 @@ def _refuse_missing(joint: UrdfJoint, links: dict[str, UrdfLink]) -> None:
         if name not in links and not (tag == "parent" and name == WORLD):
             raise values.fail(
                 joint.node.find(tag) or joint.node,
-                f"the joint's {tag} '{name}' is no link of this robot",
+                f"the joint's {tag} '{name}' is not a link of this robot",
                 hint=did_you_mean(name, links),
             )
 
@@ -158,7 +158,7 @@ def _root(root: Parameters, links: dict[str, UrdfLink], graph: JointGraph[UrdfJo
         raise values.fail(
             links[tops[1]].node if tops[1] in links else root,
             f"the robot has {len(tops)} roots: {', '.join(tops)}",
-            hint="a joint must hold each of them but one",
+            hint="connect all of them but one by joints",
         )
     return tops[0]
 
@@ -186,7 +186,7 @@ def bodies(tree: UrdfTree, extensions: Extensions) -> list[LumpedLink]:
     done: list[LumpedLink] = []
     if tree.root == WORLD:
         waiting = [
-            _hung(tree, joint, LumpedLink(UrdfLink(WORLD, None, joint.node), Pose()), Pose())
+            _child_of(tree, joint, LumpedLink(UrdfLink(WORLD, None, joint.node), Pose()), Pose())
             for joint in tree.below.get(WORLD, ())
         ]
     else:
@@ -199,7 +199,8 @@ def bodies(tree: UrdfTree, extensions: Extensions) -> list[LumpedLink]:
     return done
 
 
-def _hung(tree: UrdfTree, joint: UrdfJoint, parent: LumpedLink, link_pose: Pose) -> LumpedLink:
+def _child_of(tree: UrdfTree, joint: UrdfJoint, parent: LumpedLink, link_pose: Pose) -> LumpedLink:
+    """Return the child link of a joint, posed in the model."""
     origin = link_pose * joint.origin
     return LumpedLink(tree.links[joint.child], parent.pose * origin, joint, parent.name, origin)
 
@@ -217,5 +218,5 @@ def _gather(tree: UrdfTree, body: LumpedLink, extensions: Extensions) -> None:
                 stood = member.upright * upright(joint.origin)
                 lumped.append(Member(tree.links[joint.child], pose, joint, stood))
             else:
-                body.children.append(_hung(tree, joint, body, member.pose))
+                body.children.append(_child_of(tree, joint, body, member.pose))
         waiting.extend(reversed(lumped))

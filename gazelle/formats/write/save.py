@@ -110,7 +110,7 @@ def _text(content: World | Model, kind: str, writing: Writing) -> str:
             if kind == "mjcf"
             else did_you_mean(kind, get_args(Format))
         )
-        raise FormatError(f"'{kind}' is no format that can be written here", hint=hint)
+        raise FormatError(f"'{kind}' is not a format that can be written here", hint=hint)
     text = document(writer(content, writing))
     writing.report()
     return text

@@ -77,7 +77,7 @@ class Costmap:
         updated: The cells of the last update.
 
     Raises:
-        Error: The size or the resolution cannot be.
+        Error: The size or the resolution is invalid.
     """
 
     def __init__(

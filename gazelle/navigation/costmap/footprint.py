@@ -25,7 +25,7 @@ def footprint_of(text: object = "[]", radius: float = 0.46, padding: float = 0.0
         padding: Added to each coordinate, away from the origin [m].
 
     Raises:
-        Error: It is no list of three corners or more.
+        Error: It is not a list of three corners or more.
     """
     try:
         value = ast.literal_eval(text.strip() or "[]") if isinstance(text, str) else text
@@ -43,7 +43,7 @@ def footprint_of(text: object = "[]", radius: float = 0.46, padding: float = 0.0
         or not np.isfinite(corners).all()
     ):
         raise Error(
-            f"a footprint is a list of three corners or more, not {str(text)[:80]!r}",
+            f"a footprint must be a list of three corners or more, not {str(text)[:80]!r}",
             hint="such as [[-0.1, -0.1], [-0.1, 0.1], [0.1, 0.1], [0.1, -0.1]]",
         )
     return corners

@@ -151,8 +151,8 @@ def _from_flat(values: Values, name: str) -> tuple[Values, list[dict[str, str]]]
     if any(key in values for key in (*_INFLATION_KEYS, "observation_sources", "map_type")):
         warnings.warn(
             SimulationWarning(
-                f"{name}: parameters of before Hydro are taken for layers static_layer, "
-                "obstacle_layer and inflation_layer; 'plugins' would name them"
+                f"{name}: pre-Hydro parameters are used for the layers static_layer, "
+                "obstacle_layer and inflation_layer; name them in 'plugins'"
             ),
             stacklevel=3,
         )

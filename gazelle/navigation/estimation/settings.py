@@ -139,7 +139,7 @@ class FilterSettings:
         found = fields_of(cls, values, without=others)
         positive("frequency", found["frequency"])
         if found["history_length"] < 0.0:
-            raise Error(f"'history_length' is not negative, not {found['history_length']}")
+            raise Error(f"'history_length' must not be negative, but is {found['history_length']}")
         base, odom = found["base_link_frame"], found["odom_frame"]
         timeout = value_of(values, "sensor_timeout", 1.0 / found["frequency"])
         made = cls(
@@ -254,7 +254,7 @@ def _flags(values: Values, name: str, size: int) -> Bools:
     value = values.get(name)
     listed = value if isinstance(value, list) else []
     if len(listed) != size or not all(each in (0, 1) for each in listed):
-        raise Error(f"the parameter '{name}' is a list of {size} bools, not {value!r:.60}")
+        raise Error(f"the parameter '{name}' must be a list of {size} bools, not {value!r:.60}")
     return np.array(listed, bool)
 
 
@@ -264,7 +264,7 @@ def _row(values: Values, name: str, size: int) -> Floats | None:
         return None
     numbers = [_number(each) for each in value] if isinstance(value, list) else [None]
     if None in numbers or len(numbers) != size:
-        raise Error(f"the parameter '{name}' is a list of {size} numbers, not {value!r:.60}")
+        raise Error(f"the parameter '{name}' must be a list of {size} numbers, not {value!r:.60}")
     return np.array(numbers, float)
 
 

@@ -66,7 +66,7 @@ class UtmZone:
 
     def __post_init__(self) -> None:
         if not 1 <= self.number <= 60:
-            raise Error(f"a UTM zone is 1 to 60, not {self.number}")
+            raise Error(f"a UTM zone must be 1 to 60, not {self.number}")
 
     @classmethod
     def of(cls, latitude: float, longitude: float) -> UtmZone:

@@ -130,7 +130,7 @@ class ParticleFilter:
         """Resample particles by their weights, as many as their spread needs.
 
         Args:
-            anywhere: Draws so many poses from all over the map, shape (n, 3).
+            anywhere: Draws a given number of poses from all over the map, shape (n, 3).
         """
         lost = max(0.0, 1.0 - self._short / self._long) if self._long > 0.0 else 0.0
         sums = np.cumsum(self.weights)

@@ -158,7 +158,7 @@ class LikelihoodField:
             s: cython.double = block[3 * LANES + k]
             x: cython.double = block[k] + c * px - s * py
             y: cython.double = block[LANES + k] + s * px + c * py
-            # In this order what is no number comes to the rim, too.
+            # In this order what is not a number comes to the rim, too.
             x = max(0.0, x)
             y = max(0.0, y)
             x = min(right, x)

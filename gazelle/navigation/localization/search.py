@@ -30,7 +30,7 @@ def draw_fitting(
     """Sample poses that a scan fits well from many candidates; shape (count, 3).
 
     A few thousand particles strewn over a building miss the right place: none is near enough to be
-    better than the others. So many more poses are tried once, and particles begin where the scan fits
+    better than the others. More random poses are tried once, and particles begin where the scan fits
     best; how much better a pose has to be follows from how many are to remain (S. Lenser and M. Veloso,
     "Sensor resetting localization for poorly modelled mobile robots", 2000). Poses are drawn in two
     rounds, the second one close to what the first has found.

@@ -27,7 +27,7 @@ from gazelle_ros.base.parameter_values import Values, fields_of
 
 _SIGMA, _TURN, _HALVINGS = 0.05, 0.05, 5
 _LEAST_VISITS, _LEAST_SHARE = 2, 0.1
-"""A cell is occupied where so many beams went and so great a share of them ended, as in the original."""
+"""A cell is occupied if at least this number of beams crossed it and this share of them ended there, as in the original."""
 _MATCHED = (400.0, 400.0, 2500.0)
 """Inverse variances of poses by matching [1/m²], [1/rad²]: 5 cm and 0.02 rad."""
 

@@ -100,7 +100,7 @@ class TiledMaps:
         self._draw(particle, pose, beams, most)
 
     def _make_room(self, needed: int) -> None:
-        """Allocate so many unused tiles."""
+        """Allocate a given number of unused tiles."""
         capacity = self.pool.shape[0]
         if self._used + needed > capacity:
             more = max(capacity, needed)

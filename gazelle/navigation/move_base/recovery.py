@@ -32,11 +32,11 @@ class RecoveryBehavior(ABC):
         self.name, self.whole, self.local, self.parameters = name, whole, local, parameters
 
     @abstractmethod
-    def begin(self, in_whole: Pose2, in_local: Pose2) -> None:
+    def begin(self, global_pose: Pose2, local_pose: Pose2) -> None:
         """Start, with the robot at a pose in each costmap's frame."""
 
     @abstractmethod
-    def update(self, in_local: Pose2) -> Velocity | None:
+    def update(self, local_pose: Pose2) -> Velocity | None:
         """Return the velocity to have now; None when it is done."""
 
 
@@ -47,7 +47,7 @@ class ClearCostmapRecovery(RecoveryBehavior):
     ``invert_area_to_clear`` false.
     """
 
-    def begin(self, in_whole: Pose2, in_local: Pose2) -> None:
+    def begin(self, global_pose: Pose2, local_pose: Pose2) -> None:
         """Clear the costmaps, at once."""
         side = value_of(self.parameters, "reset_distance", 3.0)
         # "obstacles" is the original's; flat parameters make a layer of the other name.
@@ -55,15 +55,15 @@ class ClearCostmapRecovery(RecoveryBehavior):
         maps = value_of(self.parameters, "affected_maps", "both")
         outside = not value_of(self.parameters, "invert_area_to_clear", False)
         for which, costmap, pose in (
-            ("global", self.whole, in_whole),
-            ("local", self.local, in_local),
+            ("global", self.whole, global_pose),
+            ("local", self.local, local_pose),
         ):
             if maps in {which, "both"}:
                 costmap.clear(pose, side, names, outside=outside)
 
-    def update(self, in_local: Pose2) -> Velocity | None:
+    def update(self, local_pose: Pose2) -> Velocity | None:
         """Return None: it is done."""
-        del in_local
+        del local_pose
         return None
 
 
@@ -76,17 +76,19 @@ class RotateRecovery(RecoveryBehavior):
     ``min_in_place_rotational_vel``), ``yaw_goal_tolerance`` 0.1.
     """
 
-    def begin(self, in_whole: Pose2, in_local: Pose2) -> None:
+    def begin(self, global_pose: Pose2, local_pose: Pose2) -> None:
         """Start to turn, counter-clockwise."""
-        del in_whole
-        self._last = in_local[2]
+        del global_pose
+        self._last = local_pose[2]
         self._left = 2.0 * math.pi
 
-    def update(self, in_local: Pose2) -> Velocity | None:
+    def update(self, local_pose: Pose2) -> Velocity | None:
         """Return the velocity of the turn."""
-        self._left -= wrapped(in_local[2] - self._last)
-        self._last = in_local[2]
-        if self._left < self._limit("yaw_goal_tolerance", "", 0.1) or not self._has_room(in_local):
+        self._left -= wrapped(local_pose[2] - self._last)
+        self._last = local_pose[2]
+        if self._left < self._limit("yaw_goal_tolerance", "", 0.1) or not self._has_room(
+            local_pose
+        ):
             return None
         rate = math.sqrt(2.0 * self._limit("acc_lim_theta", "acc_lim_th", 3.2) * self._left)
         least = self._limit("min_in_place_vel_theta", "min_in_place_rotational_vel", 0.4)

@@ -64,13 +64,13 @@ class RobotState:
     """Pose and velocity of a robot.
 
     Attributes:
-        in_whole: Pose in the global costmap's frame.
-        in_local: Pose in the local costmap's frame.
+        global_pose: Pose in the global costmap's frame.
+        local_pose: Pose in the local costmap's frame.
         velocity: Along x and y [m/s], and turning [rad/s].
     """
 
-    in_whole: Pose2
-    in_local: Pose2
+    global_pose: Pose2
+    local_pose: Pose2
     velocity: Velocity
 
 
@@ -157,8 +157,8 @@ class MoveBase:
         """
         if self.goal is None:
             return MoveStep()
-        if self._away(state.in_whole):
-            self._oscillation_pose, self._last_oscillation = state.in_whole, time
+        if self._away(state.global_pose):
+            self._oscillation_pose, self._last_oscillation = state.global_pose, time
             if self._trigger is _Trigger.OSCILLATION:
                 self._recovery_index = 0
         plan = None
@@ -222,7 +222,7 @@ class MoveBase:
         """Return a new plan; None if there is none."""
         goal = self.goal
         self._planned_at = time
-        plan = np.zeros((0, 3)) if goal is None else self.planner.make_plan(state.in_whole, goal)
+        plan = np.zeros((0, 3)) if goal is None else self.planner.make_plan(state.global_pose, goal)
         if len(plan):
             self._last_plan, self._retries = time, 0
             if self._trigger is _Trigger.PLANNING:
@@ -243,15 +243,15 @@ class MoveBase:
         return MoveStep(STOP)
 
     def _control(self, time: float, state: RobotState) -> MoveStep:
-        to_local = composed(state.in_local, inverse(state.in_whole))
-        if self.controller.goal_reached(state.in_local, state.velocity, to_local):
+        to_local = composed(state.local_pose, inverse(state.global_pose))
+        if self.controller.goal_reached(state.local_pose, state.velocity, to_local):
             return self._end(GoalOutcome.SUCCEEDED, REACHED)
         timeout = self.settings.oscillation_timeout
         if timeout > 0.0 and self._last_oscillation + timeout < time:
             # As in the original a velocity is computed all the same: a robot that has none waits
             # for `controller_patience`, and then recoveries follow each other at once.
             self._recover(_Trigger.OSCILLATION)
-        velocity = self.controller.command(state.in_local, state.velocity, to_local)
+        velocity = self.controller.command(state.local_pose, state.velocity, to_local)
         if velocity is not None:
             self._last_control = time
             if self._trigger is _Trigger.CONTROLLING:
@@ -276,8 +276,8 @@ class MoveBase:
                 return self._end(GoalOutcome.ABORTED, self._trigger.value)
             self._running = self.recoveries[index]
             begun = index, self._running.name
-            self._running.begin(state.in_whole, state.in_local)
-        velocity = self._running.update(state.in_local)
+            self._running.begin(state.global_pose, state.local_pose)
+        velocity = self._running.update(state.local_pose)
         if velocity is not None:
             return MoveStep(velocity, recovery=begun)
         self._running = None
@@ -301,5 +301,5 @@ def goal_of(x: float, y: float, yaw: float) -> Pose2:
         Error: A number is not finite.
     """
     if not all(math.isfinite(value) for value in (x, y, yaw)):
-        raise Error(f"a goal is of finite numbers, not ({x:g}, {y:g}, {yaw:g})")
+        raise Error(f"a goal must have finite numbers, not ({x:g}, {y:g}, {yaw:g})")
     return x, y, yaw

@@ -11,8 +11,8 @@ from gazelle.array_types import Floats32
 _FAR = cython.declare(cython.float, 1e10)
 
 
-def seek(
-    prices: Floats32,
+def search(
+    traversal_costs: Floats32,
     values: Floats32,
     columns: int,
     ends: tuple[int, int],
@@ -27,25 +27,27 @@ def seek(
     paths", 1968; the heuristic is the Manhattan distance.
 
     Args:
-        prices: Of each cell, row by row; inf where it is closed, as all outermost cells are.
+        traversal_costs: Of each cell, row by row; inf where it is closed, as all outermost cells are.
         values: Potentials of the cells, 1e10 at first; changed.
         columns: Of the grid.
         ends: Indices of the source and the target.
         neutral: Price of a cell in the heuristic.
-        quadratic: 1 to solve with both axes; else a potential is that of the neighbour and the price.
+        quadratic: 1 to solve with both axes; else a potential is that of the neighbour plus the cost.
 
     Returns:
         Whether the target was reached.
     """
-    size = len(prices)
+    size = len(traversal_costs)
     keys = np.empty(size + 1, np.float32)
     cells = np.empty(size + 1, np.int32)
-    return bool(_run(prices, values, keys, cells, columns, ends[0], ends[1], neutral, quadratic))
+    return bool(
+        _run(traversal_costs, values, keys, cells, columns, ends[0], ends[1], neutral, quadratic)
+    )
 
 
 @cython.ccall
 def _run(
-    price: cython.float[::1],
+    cost: cython.float[::1],
     value: cython.float[::1],
     keys: cython.float[::1],
     cells: cython.int[::1],
@@ -55,7 +57,7 @@ def _run(
     neutral: cython.float,
     quadratic: cython.bint,
 ) -> cython.bint:
-    size: cython.int = cython.cast(cython.int, price.shape[0])
+    size: cython.int = cython.cast(cython.int, cost.shape[0])
     goal_x: cython.int = last % columns
     goal_y: cython.int = last // columns
     count: cython.int = 1
@@ -71,9 +73,9 @@ def _run(
             move: cython.int = 1 if side < 2 else columns
             n: cython.int = cell - move if side % 2 else cell + move
             # The source may be on the outermost row, which has none on its other side.
-            if n < 0 or n >= size or value[n] < _FAR or price[n] >= _FAR:
+            if n < 0 or n >= size or value[n] < _FAR or cost[n] >= _FAR:
                 continue
-            value[n] = _potential(value, n, columns, price[n], value[cell], quadratic)
+            value[n] = _potential(value, n, columns, cost[n], value[cell], quadratic)
             ahead: cython.float = fabs(n % columns - goal_x) + fabs(n // columns - goal_y)
             _rise(keys, cells, count, value[n] + neutral * ahead, n)
             count += 1

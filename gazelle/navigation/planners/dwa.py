@@ -235,7 +235,7 @@ class DwaPlanner(PlanFollower):
 
 
 def spread(low: float, high: float, count: int) -> Floats:
-    """Return so many velocities from the least to the greatest, and 0 if it lies between."""
+    """Return a given number of velocities from the least to the greatest, including 0 if it is between."""
     if low >= high:
         return np.array([min(low, high) if low == high else high])
     values = np.linspace(low, high, max(count, 2))

@@ -43,7 +43,9 @@ class PlanFollower(LocalPlannerPlugin):
         """
         poses = np.array(plan, np.float64)
         if poses.ndim != 2 or poses.shape[1] != 3 or not np.isfinite(poses).all():
-            raise Error(f"a plan is finite poses, shape (n, 3), not of the shape {poses.shape}")
+            raise Error(
+                f"a plan must be finite poses, shape (n, 3), not of the shape {poses.shape}"
+            )
         self._plan = poses
         return len(poses) > 0
 

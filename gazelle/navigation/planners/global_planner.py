@@ -65,11 +65,11 @@ class GlobalPlannerSettings:
 
     def __post_init__(self) -> None:
         if math.isnan(self.cost_factor):
-            raise Error(f"'cost_factor' is a number from 0.01 to 5.0, not {self.cost_factor}")
+            raise Error(f"'cost_factor' must be a number from 0.01 to 5.0, not {self.cost_factor}")
         for each in tuned_fields(GlobalPlannerSettings).values():
             object.__setattr__(self, each.name, each.clamp(getattr(self, each.name)))
         if not 0 < self.publish_scale <= 100:
-            raise Error(f"'publish_scale' is 1 to 100, not {self.publish_scale}")
+            raise Error(f"'publish_scale' must be 1 to 100, not {self.publish_scale}")
 
 
 @checked(Error, after=True)
@@ -117,7 +117,7 @@ class GlobalPlanner(PotentialPlanner):
         if self.dijkstra:
             super()._spread(field, traversal_costs, ends, least, everywhere=everywhere)
         else:
-            field.seek(traversal_costs, *ends, float(self.settings.neutral_cost), self.quadratic)
+            field.search(traversal_costs, *ends, float(self.settings.neutral_cost), self.quadratic)
 
     def oriented(self, plan: Floats, start: Pose2) -> Floats:
         """Return headings by ``orientation_mode``; the goal keeps its own."""
@@ -133,7 +133,7 @@ class GlobalPlanner(PotentialPlanner):
         return plan
 
     def _ahead(self, plan: Floats) -> Floats:
-        """Return headings from so many poses before to so many after [rad]."""
+        """Return headings averaged over a window of poses [rad]."""
         index = np.arange(len(plan))
         window = self.settings.orientation_window_size
         after = plan[np.minimum(index + window, len(plan) - 1), :2]

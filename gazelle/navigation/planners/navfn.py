@@ -29,7 +29,7 @@ NO_PLAN: Final[Floats] = np.zeros((0, 3))
 class PotentialPlanner(GlobalPlannerPlugin):
     """Base of planners that descend a potential.
 
-    The potential spreads from the robot, so that goals nearby can be looked at if one cannot be
+    The potential spreads from the robot, so that goals nearby can be looked at if one is invalid
     reached.
 
     Attributes:

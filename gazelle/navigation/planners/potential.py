@@ -1,8 +1,8 @@
 """Potential of a grid: the cost from one cell to all others, and descent from any of them.
 
-The potential obeys the eikonal equation: its slope is the price of the cell. Method: each cell from
+The potential obeys the eikonal equation: its slope is the traversal cost of the cell. Method: each cell from
 its lower neighbours along x and y (J. Sethian, "A fast marching level set method", 1996), cells in
-order of blocks of the least price (K. Konolige, "A gradient method for realtime robot control",
+order of blocks of the least cost (K. Konolige, "A gradient method for realtime robot control",
 2000), which is what ``navfn`` does, too.
 """
 
@@ -13,7 +13,7 @@ import numpy as np
 from cython.cimports.libc.math import fabs, sqrt
 
 from gazelle.array_types import Floats, Floats32
-from gazelle.navigation.planners.astar import seek
+from gazelle.navigation.planners.astar import search
 
 NOT_REACHED = 1e10
 """The potential of cells that cannot be reached, or have not been."""
@@ -34,7 +34,7 @@ class PotentialField:
 
     _columns: cython.int
     _rows: cython.int
-    _price: cython.float[::1]
+    _cost: cython.float[::1]
     _value: cython.float[::1]
     _waiting: cython.uchar[::1]
     _lists: cython.int[:, ::1]
@@ -42,7 +42,7 @@ class PotentialField:
     def __init__(self, rows: int, columns: int) -> None:
         self._rows, self._columns = rows, columns
         size = rows * columns
-        self._price = np.zeros(size, np.float32)
+        self._cost = np.zeros(size, np.float32)
         self._value = np.full(size, NOT_REACHED, np.float32)
         self._waiting = np.zeros(size, np.uint8)
         self._lists = np.zeros((3, size + 4), np.int32)
@@ -54,7 +54,7 @@ class PotentialField:
 
     def spread(
         self,
-        prices: Floats32,
+        traversal_costs: Floats32,
         source: tuple[int, int],
         target: tuple[int, int] | None,
         step: float,
@@ -63,25 +63,25 @@ class PotentialField:
         """Find the potentials, as far as until the target has its own.
 
         Args:
-            prices: Of a cell's length in each cell, 0 where it is closed, shape (rows, columns).
+            traversal_costs: To cross each cell, 0 where it is closed, shape (rows, columns).
             source: Column and row where the potential is 0.
             target: Column and row that it must reach; None for all cells.
-            step: The least price of a cell.
+            step: The least traversal cost of a cell.
             quadratic: 1 to solve with both axes; else only along the cheaper one.
 
         Returns:
             Whether the target was reached; with None, True.
         """
-        self._clear(prices)
+        self._clear(traversal_costs)
         np.asarray(self._waiting).fill(0)
         first: cython.int = source[1] * self._columns + source[0]
         last: cython.int = -1 if target is None else target[1] * self._columns + target[0]
         self._run(first, last, step, quadratic)
         return bool(last < 0 or self._value[last] < _FAR)
 
-    def seek(
+    def search(
         self,
-        prices: Floats32,
+        traversal_costs: Floats32,
         source: tuple[int, int],
         target: tuple[int, int],
         neutral: float,
@@ -90,7 +90,7 @@ class PotentialField:
         """Find the potentials of cells towards a target, as few as A* needs.
 
         Args:
-            prices: As for `spread`.
+            traversal_costs: As for `spread`.
             source: Column and row where the potential is 0.
             target: Column and row that it must reach.
             neutral: Price of a cell in the heuristic.
@@ -99,18 +99,18 @@ class PotentialField:
         Returns:
             Whether the target was reached; if not, all cells that can be reached have a potential.
         """
-        self._clear(prices)
+        self._clear(traversal_costs)
         ends = source[1] * self._columns + source[0], target[1] * self._columns + target[0]
-        price, value = np.asarray(self._price), np.asarray(self._value)
-        return seek(price, value, self._columns, ends, neutral, quadratic)
+        cost, value = np.asarray(self._cost), np.asarray(self._value)
+        return search(cost, value, self._columns, ends, neutral, quadratic)
 
-    def _clear(self, prices: Floats32) -> None:
-        """Set the prices, and all potentials to `NOT_REACHED`."""
-        price = np.asarray(self._price).reshape(self._rows, self._columns)
+    def _clear(self, traversal_costs: Floats32) -> None:
+        """Set the traversal costs, and all potentials to `NOT_REACHED`."""
+        cost = np.asarray(self._cost).reshape(self._rows, self._columns)
         # No way through a closed cell is cheaper than none, so that it needs no question of its own.
-        np.copyto(price, np.float32(np.inf))
+        np.copyto(cost, np.float32(np.inf))
         inner = slice(1, -1), slice(1, -1)
-        np.copyto(price[inner], prices[inner], where=prices[inner] > 0.0)
+        np.copyto(cost[inner], traversal_costs[inner], where=traversal_costs[inner] > 0.0)
         np.asarray(self._value).fill(NOT_REACHED)
 
     @cython.cfunc
@@ -120,7 +120,7 @@ class PotentialField:
     ) -> cython.void:
         # Local, as they then stay in registers: a byte that is written could be part of any attribute.
         value: cython.float[::1] = self._value
-        price: cython.float[::1] = self._price
+        cost: cython.float[::1] = self._cost
         waiting: cython.uchar[::1] = self._waiting
         lists: cython.int[:, ::1] = self._lists
         columns: cython.int = self._columns
@@ -133,7 +133,7 @@ class PotentialField:
         counts[0] = counts[1] = 0
         threshold: cython.float = step
         value[first] = 0.0
-        counts[0] = self._begin(first, columns, price, waiting, lists)
+        counts[0] = self._begin(first, columns, cost, waiting, lists)
         while True:
             if counts[0] == 0:
                 if counts[1] == 0:
@@ -150,9 +150,9 @@ class PotentialField:
                 waiting[lists[use[2], i]] = 0
             for i in range(count):
                 n: cython.int = lists[use[2], i]
-                if self._settle(n, columns, quadratic, value, price):
+                if self._settle(n, columns, quadratic, value, cost):
                     self._push_around(
-                        n, columns, threshold, value, price, waiting, lists, use, counts
+                        n, columns, threshold, value, cost, waiting, lists, use, counts
                     )
 
     @cython.cfunc
@@ -161,7 +161,7 @@ class PotentialField:
         self,
         first: cython.int,
         columns: cython.int,
-        price: cython.float[::1],
+        cost: cython.float[::1],
         waiting: cython.uchar[::1],
         lists: cython.int[:, ::1],
     ) -> cython.int:
@@ -172,7 +172,7 @@ class PotentialField:
             move: cython.int = 1 if side < 2 else columns
             other: cython.int = first + (move if side % 2 else -move)
             # The source may be on the outermost row, which has none on its other side.
-            if other >= 0 and other < price.shape[0] and price[other] < _FAR:
+            if other >= 0 and other < cost.shape[0] and cost[other] < _FAR:
                 lists[0, count] = other
                 waiting[other] = 1
                 count += 1
@@ -187,12 +187,12 @@ class PotentialField:
         columns: cython.int,
         quadratic: cython.bint,
         value: cython.float[::1],
-        price: cython.float[::1],
+        cost: cython.float[::1],
     ) -> cython.bint:
         """Lower a cell's potential to that of its neighbours; returns whether it is lower now."""
         a: cython.float = min(value[n + 1], value[n - 1])
         b: cython.float = min(value[n - columns], value[n + columns])
-        own: cython.float = price[n]
+        own: cython.float = cost[n]
         apart: cython.float = fabs(a - b)
         found: cython.float
         if not quadratic or apart >= own:
@@ -214,7 +214,7 @@ class PotentialField:
         columns: cython.int,
         threshold: cython.float,
         value: cython.float[::1],
-        price: cython.float[::1],
+        cost: cython.float[::1],
         waiting: cython.uchar[::1],
         lists: cython.int[:, ::1],
         use: cython.p_int,
@@ -234,7 +234,7 @@ class PotentialField:
         for side in range(4):
             move: cython.int = 1 if side < 2 else columns
             other: cython.int = n + (move if side % 2 else -move)
-            wanted: cython.int = value[other] > own + share * price[other]
+            wanted: cython.int = value[other] > own + share * cost[other]
             wanted &= waiting[other] ^ 1
             lists[line, count] = other
             waiting[other] |= wanted
@@ -291,7 +291,7 @@ class PotentialField:
                 if self._open(n):
                     gx, gy = self._between(x, y, 0), self._between(x, y, 1)
             size = sqrt(gx * gx + gy * gy)
-            before = value + 0.25 * self._price[n]
+            before = value + 0.25 * self._cost[n]
             if size > 0.0:
                 x -= 0.5 * gx / size
                 y -= 0.5 * gy / size

@@ -76,7 +76,7 @@ class TrajectoryRollout:
     def judge(
         self, pose: Floats, velocity: Floats, commands: Floats, steps: Ints32, duration: float
     ) -> Floats:
-        """Return the cost of each command; negative where it cannot be.
+        """Return the cost of each command; negative where it is invalid.
 
         Args:
             pose: x, y [m] and heading [rad], shape (3,).

@@ -149,16 +149,16 @@ class TebSettings:
     def __post_init__(self) -> None:
         for name in ("dt_ref", "max_vel_x", "max_vel_theta", "acc_lim_x", "acc_lim_theta"):
             if not 0.0 < getattr(self, name) < math.inf:
-                raise Error(f"'{name}' is above 0, not {getattr(self, name)}")
+                raise Error(f"'{name}' must be above 0, not {getattr(self, name)}")
         for each in fields(self):
             value = getattr(self, each.name)
             if each.name.startswith("weight_") and not 0.0 <= value < math.inf:
-                raise Error(f"'{each.name}' is 0 or more, not {value}")
+                raise Error(f"'{each.name}' must be 0 or more, not {value}")
         for name in ("max_number_classes", "roadmap_graph_no_samples"):
             if not 1 <= getattr(self, name) <= 100:
-                raise Error(f"'{name}' is 1 to 100, not {getattr(self, name)}")
+                raise Error(f"'{name}' must be 1 to 100, not {getattr(self, name)}")
         if not 3 <= self.min_samples <= self.max_samples:
-            raise Error(f"'min_samples' is 3 to 'max_samples', not {self.min_samples}")
+            raise Error(f"'min_samples' must be 3 to 'max_samples', not {self.min_samples}")
 
     @property
     def fastest(self) -> float:
@@ -196,7 +196,7 @@ class TebFootprint:
         """
         model = values.get("footprint_model", {})
         if not isinstance(model, Mapping):
-            raise Error(f"'footprint_model' is a namespace, not {model!r:.60}")
+            raise Error(f"'footprint_model' must be a namespace, not {model!r:.60}")
         kind = value_of(model, "type", "point")
         if kind == "point":
             return cls(np.zeros((1, 2)), np.zeros(1))
@@ -235,7 +235,7 @@ def _number(model: Mapping[str, Any], name: str) -> float:
         raise Error(f"'footprint_model/{name}' is missing")
     number = float(value_of(model, name, 0.0))
     if not 0.0 <= abs(number) < math.inf:
-        raise Error(f"'footprint_model/{name}' is a number, not {number}")
+        raise Error(f"'footprint_model/{name}' must be a number, not {number}")
     return number
 
 
@@ -245,5 +245,5 @@ def _points(value: Any, name: str) -> Floats:
     except (TypeError, ValueError):
         points = np.zeros(0)
     if points.ndim != 2 or points.shape[1] != 2 or len(points) < 2 or not np.isfinite(points).all():
-        raise Error(f"'footprint_model/{name}' is points [x, y], not {value!r:.60}")
+        raise Error(f"'footprint_model/{name}' must be points [x, y], not {value!r:.60}")
     return points

@@ -118,7 +118,7 @@ class StageInterface(Closeable):
             self._tf.publish(message)
 
     def _after_step(self) -> None:
-        self._watchdog.look()
+        self._watchdog.check()
         now = self._simulation.clock.now_ns
         if self._schedule.rate <= 0.0 or self._schedule.is_due(now):
             self._schedule.done(now)

@@ -30,7 +30,7 @@ class Naming:
         return f"/{prefix}/{name}" if prefix else name
 
     def device_topic(self, robot: int, name: str, index: int, count: int) -> str:
-        """Return a topic of the device of a number, of so many that the robot has of its kind."""
+        """Return a topic of the n-th device of a kind, of those that the robot has."""
         if count == 1:
             return self.topic(robot, name)
         prefix = self._prefix(robot)

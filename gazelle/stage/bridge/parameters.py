@@ -69,7 +69,7 @@ def read_parameters(node: Node) -> StageParameters:
                 raise
             text = f"{error}; {field.default} is taken"
             warnings.warn(text, SimulationWarning, stacklevel=2)
-    _name_slips(node_values, own)
+    _warn_of_misspelled(node_values, own)
     return StageParameters(**values)
 
 
@@ -97,7 +97,7 @@ def _checked(plain: str, default: object, value: Any, name: str) -> Any:
     return last
 
 
-def _name_slips(left: dict[str, Any], own: str) -> None:
+def _warn_of_misspelled(left: dict[str, Any], own: str) -> None:
     """Warn of unknown names that are similar to known ones."""
     known = [field.name for field in fields(StageParameters)]
     for name in left:

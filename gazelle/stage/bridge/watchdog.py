@@ -29,7 +29,7 @@ class Watchdog:
         if self._timeout_ns > 0:
             self._due[robot] = self._simulation.clock.now_ns + self._timeout_ns
 
-    def look(self) -> None:
+    def check(self) -> None:
         """Stop those whose time is over."""
         late = self._simulation.clock.now_ns >= self._due
         if late.any():

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 
 
 @contextmanager
-def no_garbage() -> Iterator[None]:
+def gc_disabled() -> Iterator[None]:
     """Disable the collector of cyclic garbage while it lasts.
 
     Nothing that is built here is garbage, and looking through ten thousand robots again and

@@ -43,19 +43,19 @@ def read_position(properties: Properties) -> StagePosition:
     origin, error = properties.get("localization_origin"), properties.get("odom_error")
     return StagePosition(
         drive="omni" if drive == "omni" else "car" if drive == "car" else "diff",
-        velocity=quartet(properties, "velocity", _ORIGIN),
+        velocity=read_pose_tuple(properties, "velocity", _ORIGIN),
         localization="odom" if localization == "odom" else "gps",
         localization_origin=(
-            None if origin is None else quartet(properties, "localization_origin", _ORIGIN)
+            None if origin is None else read_pose_tuple(properties, "localization_origin", _ORIGIN)
         ),
-        odom_error=None if error is None else quartet(properties, "odom_error", _ORIGIN),
+        odom_error=None if error is None else read_pose_tuple(properties, "odom_error", _ORIGIN),
         wheelbase=_positive(properties, "wheelbase", default.wheelbase),
         velocity_bounds=_bounds(properties, "velocity_bounds", default.velocity_bounds),
         acceleration_bounds=_bounds(properties, "acceleration_bounds", default.acceleration_bounds),
     )
 
 
-def quartet(properties: Properties, name: str, default: Quartet) -> Quartet:
+def read_pose_tuple(properties: Properties, name: str, default: Quartet) -> Quartet:
     """Return x, y, z and an angle."""
     x, y, z, yaw = properties.numbers(name, "llla", default)
     return (x, y, z, yaw)
@@ -104,7 +104,7 @@ def read_sensor(entity: Entity, outer: Properties) -> StageSensor:
             "write range [ min max ] and fov",
         )
     sensor = StageSensor(
-        pose=quartet(properties, "pose", _ORIGIN),
+        pose=read_pose_tuple(properties, "pose", _ORIGIN),
         size=size,
         range=_range(properties, "range", default.range),
         fov=properties.angle("fov", default.fov),
@@ -194,7 +194,7 @@ def _blob_colors(properties: Properties) -> tuple[Color, ...]:
         )
     found = [color_of(str(name)) for name in names[:count]]
     if None in found:
-        properties.reading.remark("'colors' names one that X11 has not", written.source)
+        properties.reading.remark("'colors' names an unknown X11 color", written.source)
     return tuple(color for color in found if color is not None)
 
 
@@ -220,7 +220,7 @@ def read_bumper(properties: Properties) -> StageBumper:
     return StageBumper(
         tuple(
             (
-                quartet(properties, f"bpose[{i}]", _ORIGIN),
+                read_pose_tuple(properties, f"bpose[{i}]", _ORIGIN),
                 properties.length(f"blength[{i}]", common),
             )
             for i in range(min(count, MAX_STRIPS))

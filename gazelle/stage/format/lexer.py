@@ -114,10 +114,10 @@ def _unexpected(script: Script, token: Token) -> FormatError:
         return script.fail(
             "a tuple must end with ']' on the line that it begins on",
             token.offset,
-            hint="no comment may stand in it",
+            hint="comments are not allowed in it",
         )
     if token.text in "+-.0123456789":
-        return script.fail(f"'{rest.split()[0]}' is no number", token.offset)
+        return script.fail(f"'{rest.split()[0]}' is not a number", token.offset)
     return script.fail(
         f"'{token.text}' has no meaning in a Stage file",
         token.offset,

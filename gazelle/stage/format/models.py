@@ -50,7 +50,7 @@ def read_models(
         on_ground: Whether they stand on the ground, which is a ``model`` to Stage, and its first.
 
     Raises:
-        FormatError: One has a type that is not known, or says something that cannot be.
+        FormatError: One has a type that is not known, or says something that is impossible.
     """
     counts = {"model": 1} if on_ground else {}
     found = []
@@ -68,7 +68,7 @@ def read_model(entity: Entity, default_name: str, context: Context) -> StageMode
     A model that only gives a macro another pose or name shares all else with it.
 
     Raises:
-        FormatError: Its type is not known, or it says something that cannot be.
+        FormatError: Its type is not known, or it says something that is impossible.
     """
     macro = entity.macro
     if macro is None or entity.children or not entity.own.keys() <= _LIGHT:
@@ -130,9 +130,9 @@ def _read_whole(entity: Entity, default_name: str, context: Context) -> StageMod
 
 def _unknown(entity: Entity) -> Exception:
     if entity.type in {"sensor", "block", "window"}:
-        return entity.fail(f"'{entity.type}' cannot stand here, it is no model")
+        return entity.fail(f"'{entity.type}' is not allowed here: it is not a model")
     hint = _GONE.get(entity.type) or did_you_mean(entity.type, [*KINDS, *entity.macros])
-    return entity.fail(f"'{entity.type}' is no type of model and no macro defined above", hint)
+    return entity.fail(f"'{entity.type}' is not a type of model and no macro defined above", hint)
 
 
 def _refuse_sensors(entity: Entity) -> None:
@@ -145,7 +145,7 @@ def _name(properties: Properties, default: str) -> str:
     written = properties.get("name")
     name = properties.text("name", default)
     if written is not None and (not name.strip("/ ") or "::" in name):
-        raise written.fail(f"'{name}' is no name for a model")
+        raise written.fail(f"'{name}' is not a name for a model")
     return name
 
 
@@ -210,7 +210,7 @@ def _interval(properties: Properties) -> float:
     milliseconds = properties.number("update_interval", 100.0)
     written = properties.get("update_interval")
     if written is not None and not 0.0 <= milliseconds <= 1000.0 * _MAX_INTERVAL:
-        raise written.fail(f"'update_interval' is out of all bounds: {milliseconds:g} ms")
+        raise written.fail(f"'update_interval' is out of range: {milliseconds:g} ms")
     return milliseconds / 1000.0
 
 

@@ -124,7 +124,7 @@ class _Parser:
     def _body(self, entity: Entity, depth: int) -> None:
         """Parse the content of parentheses, and the closing one."""
         if depth > MAX_DEPTH:
-            raise entity.fail(f"entities stand more than {MAX_DEPTH} deep in each other")
+            raise entity.fail(f"entities are nested more than {MAX_DEPTH} deep")
         while (token := self._next()).kind != TokenKind.CLOSE:
             if token.kind == TokenKind.END:
                 raise entity.fail("the ')' that ends this is missing")
@@ -134,7 +134,7 @@ class _Parser:
                 token.text in {"include", "define"}
                 and self._tokens[self._at].kind != TokenKind.OPEN
             ):
-                raise self._fail(f"'{token.text}' may only stand outside of '( )'", token)
+                raise self._fail(f"'{token.text}' is only allowed outside of '( )'", token)
             self._item(entity, token, depth + 1)
 
     def _define(self) -> None:
@@ -167,7 +167,7 @@ class _Parser:
         while macro is not None:
             length, macro = length + 1, macro.macro
         if length > MAX_DEPTH:
-            raise entity.fail(f"more than {MAX_DEPTH} macros of each other")
+            raise entity.fail(f"macros are nested more than {MAX_DEPTH} deep")
 
     def _include(self, word: Token) -> None:
         token = self._next()

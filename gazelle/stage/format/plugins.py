@@ -48,7 +48,7 @@ class Names:
         )
 
     def published(self, sensor: Sensor, index: int, count: int) -> Sensor:
-        """Return a lidar, of so many on the robot, with its topic."""
+        """Return a lidar with its topic, which depends on the number of lidars of the robot."""
         suffix = f"_{index}" if count > 1 else ""
         plugin = StagePlugin(
             "laser",

@@ -135,7 +135,7 @@ class Properties:
         if len(items) < len(codes):
             raise entry.fail(
                 f"'{name}' must have {len(codes)} numbers, found {entry.token.text}",
-                hint="Stage 4 stops at this too",
+                hint="Stage 4 rejects this too",
             )
         return tuple(
             _number(entry, item) * self.units.factor(code)
@@ -169,7 +169,7 @@ class Properties:
             return "random"
         found = color_of(name)
         if found is None:
-            self.reading.remark(f"'{name}' is no colour of X11; red is used", named.source)
+            self.reading.remark(f"'{name}' is not an X11 color; using red", named.source)
         return found or (1.0, 0.0, 0.0, 1.0)
 
     def note(self, name: str, message: str, hint: str | None = None) -> None:
@@ -183,7 +183,7 @@ class Properties:
         for name, entry in self._all.items():
             if name not in self._known:
                 self.reading.remark(
-                    f"'{name}' is no property of a {self.entity.type}, and ignored",
+                    f"'{name}' is not a property of a {self.entity.type}, and ignored",
                     entry.source,
                     _suggestion(name, self._known),
                 )
@@ -209,5 +209,5 @@ def _number(entry: Property, value: Value) -> float:
     if not isinstance(value, float):
         raise entry.fail(f"expected a number in '{entry.name}', found {entry.token.text}")
     if not abs(value) <= MAX_NUMBER:
-        raise entry.fail(f"'{entry.name}' is out of all bounds: {value:g}")
+        raise entry.fail(f"'{entry.name}' is out of range: {value:g}")
     return value

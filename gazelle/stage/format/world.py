@@ -34,7 +34,7 @@ def read_world(script: Script, reading: Reading, folder: Path | None) -> StageWo
         folder: Folder of the file; None for text.
 
     Raises:
-        FormatError: It cannot be read, or says something that cannot be.
+        FormatError: It cannot be read, or says something that is impossible.
         ResolveError: A file that it includes or a picture is not there.
     """
     root, macros = parse(script, reading, folder)
@@ -78,7 +78,7 @@ def _try_macros(macros: dict[str, Entity], context: Context) -> None:
         except FormatError as error:
             place = Source(error.file, error.line, error.element)
             context.reading.remark(
-                f"nothing can be made of '{macro.word}': {error.message}", place, error.hint
+                f"cannot create '{macro.word}': {error.message}", place, error.hint
             )
 
 

@@ -44,7 +44,7 @@ def read_goals(file: Path) -> list[GoalPlace]:
     Empty lines, and what follows a ``#``, are left out.
 
     Raises:
-        FormatError: A line is no goal, or the file cannot be read.
+        FormatError: A line is not a goal, or the file cannot be read.
     """
     goals = []
     try:
@@ -72,13 +72,13 @@ def parse_goal(text: str) -> GoalPlace:
     try:
         (fields,) = csv.reader([text], skipinitialspace=True)
     except csv.Error:  # such as a line break
-        raise ValueError(f"'{text}' is no goal") from None
+        raise ValueError(f"'{text}' is not a goal") from None
     if len(fields) not in {2, 3}:
-        raise ValueError(f"'{text}' is no goal")
+        raise ValueError(f"'{text}' is not a goal")
     try:
         x, y = float(fields[0]), float(fields[1])
     except ValueError:
-        raise ValueError(f"'{text}' is no goal") from None
+        raise ValueError(f"'{text}' is not a goal") from None
     if not (math.isfinite(x) and math.isfinite(y)):
-        raise ValueError(f"'{text}' is no goal")
+        raise ValueError(f"'{text}' is not a goal")
     return GoalPlace(x, y, fields[2].strip() if len(fields) == 3 else "")

@@ -51,7 +51,7 @@ class _Relay:
         """True if the last order was a command to drive."""
         return self._last[0]
 
-    def obey(self, order: tuple[bool, float, float]) -> None:
+    def relay(self, order: tuple[bool, float, float]) -> None:
         """Publish an order if it is news, or if the last one was some time ago."""
         active, linear, angular = order
         now = time.monotonic()
@@ -66,9 +66,9 @@ class _Relay:
     def stop(self) -> None:
         """Stop the robot: the node is silent."""
         if self.active:
-            self.obey((True, 0.0, 0.0))
+            self.relay((True, 0.0, 0.0))
 
-    def say_farewell(self) -> None:
+    def publish_stop(self) -> None:
         """Stop the robot, if it was driven at all: the node has ended."""
         for _ in range(_FAREWELLS if self._drove else 0):
             self._send(0.0, 0.0)
@@ -95,7 +95,7 @@ def main(text: str) -> int:
         relay = _Relay(node.advertise(options["topic"], geometry_msgs.msg.Twist, 1))
         os.write(sys.stdout.fileno(), READY)
         _serve(relay, node, float(options["timeout"]))
-        relay.say_farewell()
+        relay.publish_stop()
     finally:
         node.close()
     return 0
@@ -116,7 +116,7 @@ def _serve(relay: _Relay, node: Node, timeout: float) -> None:
         whole = len(rest) // ORDER.size * ORDER.size
         if whole:
             # Orders that wait behind each other are old: the newest counts.
-            relay.obey(ORDER.unpack(rest[whole - ORDER.size : whole]))
+            relay.relay(ORDER.unpack(rest[whole - ORDER.size : whole]))
             rest = rest[whole:]
 
 

@@ -182,8 +182,8 @@ class DeployNode(Closeable):
     def _measured_at(self, message: sensor_msgs.msg.LaserScan | nav_msgs.msg.Odometry) -> float:
         """Return the time of a reading [s].
 
-        A robot's clock may differ from this machine's, so the arrival counts. A simulated clock is
-        one for all; on a busy machine it comes before what was measured earlier, or after it.
+        With simulated time it is the stamp, as all nodes share the clock; messages of /clock may
+        arrive late. Else it is the time of arrival, as the clock of a robot may differ.
         """
         now, stamp = self._now(), message.header.stamp.to_sec()
         known = self.node.clock.simulated and 0.0 < stamp < now + _CLOCK_LATE_S

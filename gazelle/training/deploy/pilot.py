@@ -1,4 +1,4 @@
-"""Decides what a robot does next: the policy's will, within what is safe. Knows nothing of ROS.
+"""Control loop of a deployed policy: its actions within safety limits, without ROS.
 
 Times are those of the node's clock in seconds, which may be simulated and may jump back.
 """

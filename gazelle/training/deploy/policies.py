@@ -42,25 +42,25 @@ class Policy:
     """A policy and its contract.
 
     Args:
-        brain: Acts.
+        network: Acts.
         contract: Observations and actions.
 
     Raises:
-        TaskError: Its actions are no velocities.
+        TaskError: Its actions are not velocities.
     """
 
-    def __init__(self, brain: PolicyNetwork, contract: PolicyContract) -> None:
+    def __init__(self, network: PolicyNetwork, contract: PolicyContract) -> None:
         if contract.action.kind != "velocity":
             raise TaskError(
-                "the policy's actions are no velocities, so there is nothing to send",
+                "the policy's actions are not velocities, so there is nothing to send",
                 hint="give the task a contract; docs/how-to/deploy.md says how",
             )
-        self.brain = brain
+        self.network = network
         self.contract = contract
 
     def decide(self, obs: Floats32) -> Decision:
         """Return the decision for one observation, shape (1, entries)."""
-        outputs, actions = self.brain.decide(obs)
+        outputs, actions = self.network.decide(obs)
         action = tuple(float(value) for value in np.asarray(actions[0]).reshape(-1))
         return Decision(action, command_of(action, self.contract.action), float(outputs.max()))
 
@@ -95,28 +95,28 @@ def open_policy(source: str | Path, *, imports: Sequence[str] = (), trust: bool 
 
     Raises:
         FormatError: There is none, or it or its contract is damaged.
-        TaskError: It has a memory, its actions are no velocities, it is an ONNX file, and ONNX
+        TaskError: It has a memory, its actions are not velocities, it is an ONNX file, and ONNX
             Runtime is not installed, or the run names code that is not trusted.
     """
     file, contract = load_policy(source, imports=imports, trust=trust)
-    brain: PolicyNetwork = (
+    network: PolicyNetwork = (
         _OnnxNetwork(file) if file.suffix == ".onnx" else _ArrayNetwork(load_actor(file))
     )
-    outputs, _ = brain.decide(np.zeros((1, contract.size), np.float32))
+    outputs, _ = network.decide(np.zeros((1, contract.size), np.float32))
     if contract.action.choices and outputs.shape[1] != len(contract.action.choices):
         raise FormatError(
             f"the policy has {outputs.shape[1]} actions, its contract defines "
             f"{len(contract.action.choices)}",
             file=str(file),
         )
-    return Policy(brain, contract)
+    return Policy(network, contract)
 
 
 class _ArrayNetwork:
     def __init__(self, actor: Actor) -> None:
         if actor.memory is not None:
             hint = "deploy one without, such as of --algo ppo; 'gazelle eval' runs this one"
-            raise TaskError("policies with a memory cannot drive robots yet", hint=hint)
+            raise TaskError("recurrent policies cannot be deployed yet", hint=hint)
         self._actor = actor
 
     def decide(self, obs: Floats32) -> tuple[Floats32, npt.NDArray[Any]]:

@@ -36,10 +36,10 @@ STAND = VelocityCommand()
 @checked(TaskError, after=True)
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SafetyLimits:
-    """Limits that hold whatever the policy wants.
+    """Limits that hold whatever the policy commands.
 
     Raises:
-        TaskError: One of them cannot be.
+        TaskError: One of them is invalid.
     """
 
     max_linear: float = math.inf

@@ -93,7 +93,7 @@ class _Tour:
         )
 
     def drive(self) -> None:
-        """Drive until shutdown, or until so many goals are done."""
+        """Drive until shutdown, or until a given number of goals are done."""
         with self._deployed as deployed:
             deployed.go_to([next(self._goals)])
             deployed.run(self._stop, arm=True)

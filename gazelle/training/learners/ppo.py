@@ -77,7 +77,7 @@ class MaskedRolloutBuffer(RolloutBuffer):  # type: ignore[misc]  # untyped base
         )
 
     def new_order(self, count: int) -> torch.Tensor:
-        """Return a random order of so many transitions."""
+        """Return a random order of a given number of transitions."""
         return torch.as_tensor(self.rng.permutation(count))
 
     def _flat(self, array: npt.NDArray[Any]) -> torch.Tensor:
@@ -130,7 +130,7 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
         if met is None:
             return False
         # What was played with the old weights is valued and learnt from with the new ones.
-        self._hand_over()
+        self._apply_update()
         self._last_obs, self._last_episode_starts = met.last_obs, met.last_starts
         outputs = met.outputs
         if not self.scale.decided and self.scale.refresh():
@@ -163,7 +163,7 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
                 with contextlib.suppress(Exception):  # only the first error is reported
                     self.ahead.wait()
             raise
-        self._hand_over()
+        self._apply_update()
         return self
 
     def train(self) -> None:
@@ -199,21 +199,21 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
         self.ahead = OverlappedUpdate(dense, learn)
         self.ahead.start()
         if not self.overlap:
-            self._hand_over()
+            self._apply_update()
 
     def _dense_update(self) -> DenseUpdate:
         """Return an update of the policy's weights as they are now."""
         rounded = self.bfloat16 and multiplies_bfloat16()
         return DenseUpdate(self.policy, self.max_grad_norm, bfloat16=rounded)
 
-    def go_on_ahead(self, state: Mapping[str, Any]) -> None:
+    def resume_update(self, state: Mapping[str, Any]) -> None:
         """Restore an update to hand over, from `OverlappedUpdate.get_state`, as in a checkpoint."""
         self.ahead = OverlappedUpdate.from_state(self._dense_update(), state)
 
-    def _hand_over(self) -> None:
+    def _apply_update(self) -> None:
         """Apply the running update's result to the policy, if there is one."""
         if self.ahead is not None:
-            figures = self.ahead.hand_over()
+            figures = self.ahead.apply()
             self.ahead = None
             self._end_update(figures)
 

@@ -111,7 +111,7 @@ class DenseUpdate:
 
     def finish(self) -> None:
         """Copy weights and moments back to the policy and its optimiser."""
-        self._adam.give_back()
+        self._adam.write_back()
 
     def get_state(self) -> dict[str, Any]:
         """Return weights and moments, before they are copied back, for `set_state`."""
@@ -236,7 +236,7 @@ class _FlatAdam:
         self.weights.copy_(torch.as_tensor(state["weights"]))
         self._count = int(state["count"])
 
-    def give_back(self) -> None:
+    def write_back(self) -> None:
         """Write all into the optimiser and its tensors."""
         parts = (_split(flat, self.tensors) for flat in (self._first, self._second))
         for tensor, weight, first, second in zip(self.tensors, self.views, *parts, strict=True):

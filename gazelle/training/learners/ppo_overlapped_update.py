@@ -47,7 +47,7 @@ class OverlappedUpdate:
             error, self._error = self._error, None
             raise error
 
-    def hand_over(self) -> list[float]:
+    def apply(self) -> list[float]:
         """Wait, and copy the new weights to the policy.
 
         Returns what the curves show of the update.

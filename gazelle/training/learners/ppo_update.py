@@ -48,7 +48,7 @@ class Transitions:
         )
 
     def minibatches(self, order: torch.Tensor, size: int) -> Iterator[Transitions]:
-        """Yield all of them in this order, so many at a time."""
+        """Yield all of them in this order, a given number at a time."""
         ordered = self.pick(order)
         for start in range(0, len(order), size):
             yield ordered.pick(slice(start, start + size))

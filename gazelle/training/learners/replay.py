@@ -58,7 +58,7 @@ class MaskedReplayBuffer(ReplayBuffer):  # type: ignore[misc]  # untyped base
         return ReplayBufferSamples(**{name: self.to_torch(part) for name, part in parts.items()})
 
     def _draw(self, count: int) -> tuple[npt.NDArray[np.intp], npt.NDArray[np.intp]]:
-        """Return rows and slots of so many valid transitions."""
+        """Return rows and slots of a given number of valid transitions."""
         filled = self.buffer_size if self.full else self.pos
         rows = np.random.randint(0, filled, size=count)  # noqa: NPY002  # as the parent draws
         slots = np.random.randint(0, self.n_envs, size=count)  # noqa: NPY002

@@ -30,7 +30,7 @@ class FastSAC(CriticUpdate, SAC):  # type: ignore[misc]  # untyped base
     critic_weight: ClassVar[float] = 0.5
 
     def train(self, gradient_steps: int, batch_size: int = 64) -> None:
-        """Train on so many minibatches."""
+        """Train on a given number of minibatches."""
         # The memory holds observations as they were, so all that is learnt from is scaled alike.
         self.scale.refresh()
         self.policy.set_training_mode(True)

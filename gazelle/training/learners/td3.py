@@ -27,7 +27,7 @@ from gazelle.training.learners.arguments import (
 from gazelle.training.recipes import Recipe
 from gazelle.training.vecenv import VectorEnvAdapter
 
-_SHOWN = 4  # of a minibatch one in so many is what was shown, besides
+_SHOWN = 4  # of a minibatch one of this number is a demonstration
 _STEADY = 0.5  # of the noise that a demonstrator's actions get
 
 
@@ -52,7 +52,7 @@ class DeterministicLearner(CriticUpdate, TD3):  # type: ignore[misc]  # untyped 
     greatest_reward: float = 0.0
 
     def train(self, gradient_steps: int, batch_size: int = 100) -> None:
-        """Train on so many minibatches."""
+        """Train on a given number of minibatches."""
         # The memory holds observations as they were, so all that is learnt from is scaled alike.
         self.scale.refresh()
         self.policy.set_training_mode(True)

@@ -36,7 +36,7 @@ def divided(copies: int, unit: int = 1) -> tuple[int, ...]:
         unit: Copies that cannot be apart, such as the robots of one world.
 
     Raises:
-        TaskError: The number is no multiple of the unit.
+        TaskError: The number is not a multiple of the unit.
     """
     groups, rest = divmod(copies, unit)
     if rest or not groups:
@@ -117,7 +117,7 @@ class Shard:
         return self.copies.reset()
 
     def collect(self, actor: Actor, steps: int) -> Rollout | None:
-        """Run a policy for so many steps."""
+        """Run a policy for a given number of steps."""
         return play(self.copies, actor, steps, rng=self.rng)
 
     def step(self, actions: npt.NDArray[Any]) -> ShardStep:

@@ -157,7 +157,7 @@ class WorkerGroup:
                 continue
         raise TaskError(
             f"worker {worker} ended {_TRIES + 1} times in the same work",
-            hint="its last words are above; is there enough memory?",
+            hint="its output is above; is there enough memory?",
         )
 
     def _restore(self, link: WorkerLink, share: Sequence[int]) -> None:
@@ -167,7 +167,7 @@ class WorkerGroup:
             return
         warnings.warn(
             "a worker was lost, and this environment cannot save its state: its episodes start "
-            "again, so the run goes on well but not bit for bit as without the loss",
+            "again, so the run is not bit for bit equal to one without the loss",
             SimulationWarning,
             stacklevel=2,
         )

@@ -1,4 +1,4 @@
-"""Copies of a task in other processes or on other machines, as Stable-Baselines3 wants them."""
+"""Copies of a task in other processes or on other machines, for Stable-Baselines3."""
 
 from __future__ import annotations
 

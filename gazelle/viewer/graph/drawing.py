@@ -156,7 +156,7 @@ def _column(rows: Bytes, field: sensor_msgs.msg.PointField, order: str) -> Float
 def rainbow(values: Floats) -> Bytes:
     """Return colours from blue for the least value over green to red for the most, shape (n, 3).
 
-    What is no number is blue; so is all where all values are alike.
+    What is not a number is blue; so is all where all values are alike.
     """
     known = values[np.isfinite(values)]
     low, high = (float(known.min()), float(known.max())) if len(known) else (0.0, 0.0)

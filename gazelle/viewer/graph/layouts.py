@@ -47,7 +47,7 @@ class LayoutFiles:
             Error: The name is none, or the file cannot be written.
         """
         if not _NAME.fullmatch(name):
-            raise Error(f"'{name}' is no name of a layout", hint="use letters, digits, - and _")
+            raise Error(f"'{name}' is not a name of a layout", hint="use letters, digits, - and _")
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
             write_text(self.folder / f"{name}.yaml", yaml.safe_dump(dict(layout), sort_keys=False))
@@ -58,7 +58,7 @@ class LayoutFiles:
         """Read a layout.
 
         Raises:
-            Error: There is none of that name, or it is no YAML.
+            Error: There is none of that name, or it is not valid YAML.
         """
         if name not in self.names:
             raise Error(f"there is no layout '{name}'", hint=did_you_mean(name, self.names))
@@ -68,7 +68,7 @@ class LayoutFiles:
         except (OSError, ValueError, yaml.YAMLError) as error:
             raise Error(f"the layout {file} cannot be read: {error}") from error
         if not isinstance(found, dict):
-            raise Error(f"the layout {file} is no mapping")
+            raise Error(f"the layout {file} is not a mapping")
         return found
 
 

@@ -112,7 +112,7 @@ def motion_of(message: moveit_msgs.msg.DisplayTrajectory) -> JointMotion | None:
         return None
     positions = np.array(rows, np.float64)
     if not np.isfinite(positions).all():
-        raise Error("a point of the trajectory has a position that is no number")
+        raise Error("a point of the trajectory has a position that is not a number")
     return JointMotion(joints, np.array(times), positions, state)
 
 

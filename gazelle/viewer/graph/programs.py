@@ -74,12 +74,12 @@ def fixed_frame_of(file: Path) -> str | None:
     """Return the fixed frame of a configuration of RViz; None where it has none.
 
     Raises:
-        Error: It is no YAML.
+        Error: It is not valid YAML.
     """
     try:
         found = bounded_yaml.safe_load(file.read_text(encoding="utf-8", errors="replace"))
     except yaml.YAMLError as error:
-        raise Error(f"{file} is no configuration of RViz: {error}") from error
+        raise Error(f"{file} is not a configuration of RViz: {error}") from error
     for key in ("Visualization Manager", "Global Options", "Fixed Frame"):
         found = found.get(key) if isinstance(found, dict) else None
     return found if isinstance(found, str) else None

@@ -114,7 +114,7 @@ class PointerTools:
         return nearest_on_ray(origin, direction, self._points()) if self.tool == POINT else None
 
     def _use(self, start: Floats, end: Floats) -> None:
-        self._context.careful(lambda: self._finish(start, end))
+        self._context.guarded(lambda: self._finish(start, end))
 
     def _finish(self, start: Floats, end: Floats) -> None:
         """Publish what was pointed at, and give the mouse back to the camera."""

@@ -35,7 +35,7 @@ _log = logging.getLogger("gazelle.viewer")
 class GraphView(Closeable):
     """Shows robots, frames and topics of a ROS 1 graph; also a context manager.
 
-    Topics are subscribed while the page is open, and messages drawn twenty times a second at most.
+    Topics are subscribed while the page is open, and messages drawn twenty times per second at most.
 
     Args:
         master_uri: Of the master; ``ROS_MASTER_URI`` if None.

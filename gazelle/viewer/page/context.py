@@ -71,7 +71,7 @@ class PageContext(UserActions):
         world: Number of the world that tools work on, among those shown.
         part: Selected part of that model or world.
         heading: Position of the followed model [m], shape (3,).
-        only_looking: Whether nothing can be changed on the page.
+        read_only: Whether nothing can be changed on the page.
         placing_until: Wall time until which clicks in the scene put something down [s].
         listeners: Called between two steps after another model or part was selected.
     """
@@ -83,7 +83,7 @@ class PageContext(UserActions):
     selected: str = ""
     world: int = 0
     part: ScenePart = field(default_factory=ScenePart)
-    only_looking: bool = False
+    read_only: bool = False
     heading: Floats = field(default_factory=lambda: np.zeros(3))
     placing_until: float = 0.0
     listeners: list[Callable[[], None]] = field(default_factory=list)

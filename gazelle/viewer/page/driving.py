@@ -72,7 +72,7 @@ class DriveControls:
             if driven is None or time.monotonic() < driven[1]:
                 return
             self._driven = None
-        self._context.careful(lambda: driven[0].send(0.0, 0.0))
+        self._context.guarded(lambda: driven[0].send(0.0, 0.0))
 
     def show(self, _state: None) -> None:
         """Do nothing: there is nothing to show."""
@@ -104,5 +104,5 @@ class DriveControls:
             moving = linear != 0.0 or angular != 0.0
             self._driven = (port, time.monotonic() + _LATE) if moving else None
         context.simulation.lock.post(
-            lambda: context.careful(lambda: port.send(linear, angular, chosen))
+            lambda: context.guarded(lambda: port.send(linear, angular, chosen))
         )

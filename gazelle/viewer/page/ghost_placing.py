@@ -1,4 +1,4 @@
-"""A ghost of a thing under the cursor of a page, until it is put down."""
+"""A ghost of a model under the cursor of a page, until it is put down."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ _CURSOR = """
 
 @dataclass(frozen=True, slots=True)
 class _Carried:
-    """A thing on its way.
+    """A model on its way.
 
     Attributes:
         client: Page whose cursor has it.
@@ -60,7 +60,7 @@ class _Carried:
 
 
 class GhostPlacing:
-    """Shows a ghost on what is below the cursor; a click puts the thing there, Escape does not.
+    """Shows a ghost on what is below the cursor; a click puts the model there, Escape does not.
 
     Args:
         context: Of the page.
@@ -117,7 +117,7 @@ class GhostPlacing:
         self._context.simulation.lock.post(lambda: self._follow(carried, eye, along, ended=ended))
 
     def _follow(self, carried: _Carried, eye: Floats, along: Floats, *, ended: bool) -> None:
-        """Move the ghost to what a ray meets, or put the thing there; between two steps."""
+        """Move the ghost to what a ray meets, or put the model there; between two steps."""
         context = self._context
         if carried is not self._carried:
             return
@@ -131,7 +131,7 @@ class GhostPlacing:
                 x, y, z = place.tolist()
                 pose = Pose(x, y, z, yaw=carried.yaw)
                 threading.Thread(
-                    target=lambda: context.careful(lambda: carried.put(pose)), daemon=True
+                    target=lambda: context.guarded(lambda: carried.put(pose)), daemon=True
                 ).start()
         elif seen:
             carried.frame.position, carried.frame.visible = place + context.spot, True

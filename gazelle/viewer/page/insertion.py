@@ -41,7 +41,7 @@ class InsertTools:
     def __init__(self, context: PageContext, server: PageServer) -> None:
         self._context = context
         self._ghost = GhostPlacing(context, server)
-        gui, careful = context.gui, context.careful
+        gui, guarded = context.gui, context.guarded
         bundled = (*sorted(assets.robots()), *sorted(assets.models()))
         with gui.add_folder("Spawn", expand_by_default=False):
             self._what = gui.add_dropdown("What", (*bundled, *SHAPES, *LIGHTS, _OWN))
@@ -51,9 +51,9 @@ class InsertTools:
             place = gui.add_button("Place by mouse", hint="a click in the scene puts it there")
             self._path = gui.add_text("World file", _default_path(context))
             save = gui.add_button("Save world")
-        spawn.on_click(lambda _event: careful(self.spawn))
-        place.on_click(lambda event: careful(lambda: self._begin(event.client)))
-        save.on_click(lambda _event: careful(self.save))
+        spawn.on_click(lambda _event: guarded(self.spawn))
+        place.on_click(lambda event: guarded(lambda: self._begin(event.client)))
+        save.on_click(lambda _event: guarded(self.save))
 
     def read(self) -> None:
         """Do nothing: there is nothing to follow."""
@@ -65,7 +65,7 @@ class InsertTools:
         """Do nothing: what can be inserted stays the same."""
 
     def spawn(self) -> None:
-        """Insert the chosen thing at the requested place, or at the nearest free one."""
+        """Insert the chosen model at the requested place, or at the nearest free one."""
         x, y, yaw = self._where.value
         self._insert(self._chosen(), Pose(x, y, yaw=yaw))
 

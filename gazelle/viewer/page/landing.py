@@ -1,4 +1,4 @@
-"""Point of the scene on which a thing under the cursor lands."""
+"""Point of the scene on which a model under the cursor lands."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from gazelle.array_types import Floats, Worlds
 from gazelle.simulation import Simulation
 from gazelle.viewer.sight import distance_seen
 
-_BEFORE = 0.01  # of a surface that is hit, from where things fall down [m]
+_BEFORE = 0.01  # of a surface that is hit, from where models fall down [m]
 _DOWN = np.array([0.0, 0.0, -1.0])
 
 
 def landing_point(simulation: Simulation, world: Worlds, eye: Floats, along: Floats) -> Floats:
-    """Return where a thing lands that is dropped before the surface that a ray meets.
+    """Return where a model lands that is dropped before the surface that a ray meets.
 
     That is a point of the surface if it looks up, the ground before it if it is a wall, and a point
     of z = 0 where the ray meets nothing.

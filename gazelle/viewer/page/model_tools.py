@@ -35,7 +35,7 @@ class ModelTools:
             self._follow = gui.add_checkbox("Follow", initial_value=False)
         self._gizmo_on: Any = None
         self._gizmo: Any = None
-        if not context.only_looking:
+        if not context.read_only:
             self._offer()
         context.on_user_change(self._name, self._choose)
         context.listeners.append(self._selected)
@@ -44,7 +44,7 @@ class ModelTools:
     def _offer(self) -> None:
         """Add the controls that change the simulation."""
         context = self._context
-        gui, careful = context.gui, context.careful
+        gui, guarded = context.gui, context.guarded
         with gui.add_folder("Change"):
             self._gizmo_on = gui.add_checkbox("Gizmo", initial_value=True)
             self._force = gui.add_vector3("Force [N]", (1.0, 0.0, 0.0), step=0.1)
@@ -54,7 +54,7 @@ class ModelTools:
             f"{ROOT}/gizmo", scale=0.5, depth_test=False, visible=False
         )
         self._gizmo.on_update(self._moved)
-        self._work.on_click(lambda event: careful(lambda: self.do(event.target.value)))
+        self._work.on_click(lambda event: guarded(lambda: self.do(event.target.value)))
 
     def read(self) -> tuple[Floats, Floats] | None:
         """Return the selected model's position (3,) and quaternion (4,)."""
@@ -96,10 +96,10 @@ class ModelTools:
             model = found.link.split("::")[0]
             again = (model, found.world) == (context.selected, context.world)
             part = ScenePart("link", found.link) if again else None
-            context.careful(lambda: context.select(model, found.world, part))
+            context.guarded(lambda: context.select(model, found.world, part))
 
         handle.on_click(click)
-        if context.only_looking:
+        if context.read_only:
             return
         handle.on_drag("left", modifier="shift")(_Drag(context, met).moved)
         handle.on_drag("left", modifier="cmd/ctrl")(_Drag(context, met, pull=True).moved)
@@ -198,7 +198,7 @@ def _place(context: PageContext, model: str, at: Any, turned: Any, world: Any) -
             robot = context.simulation.robots[model]
             place = at() if callable(at) else at
             rotation = turned() if callable(turned) else turned
-            context.careful(lambda: robot.set_pose(place, rotation, worlds=world))
+            context.guarded(lambda: robot.set_pose(place, rotation, worlds=world))
 
     context.simulation.lock.post(put)
 
@@ -213,6 +213,6 @@ def _pull(context: PageContext, model: str, link: str, offset: Floats, world: An
             mass = sum(body.mass for body in bodies if body is not None)
             handle = robot.links[link.removeprefix(f"{model}::")]
             force = 10.0 * mass * offset
-            context.careful(lambda: handle.apply_wrench(force, duration=0.1, worlds=world))
+            context.guarded(lambda: handle.apply_wrench(force, duration=0.1, worlds=world))
 
     context.simulation.lock.post(pull)

@@ -46,7 +46,7 @@ class MotionGhost:
         line: Places of the tip along the motion, in the frame of the base [m], shape (n, 3).
 
     Raises:
-        PlanningError: The robot is no tree, or has none of the joints.
+        PlanningError: The robot is not a tree, or has none of the joints.
         FormatError: A mesh of it cannot be read.
     """
 

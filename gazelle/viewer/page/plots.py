@@ -87,9 +87,9 @@ class PlotLayer:
         robot, _, name = self._port.value.partition(": ")
         robots = self._context.simulation.robots
         if robot in robots and name in robots[robot].outputs:
-            self._end = robots[robot].outputs[name].subscribe(self._came)
+            self._end = robots[robot].outputs[name].subscribe(self._on_value)
 
-    def _came(self, value: Any) -> None:
+    def _on_value(self, value: Any) -> None:
         """Add a published value; between two steps."""
         world = int(self._context.chosen[0])
         numbers = dict(numbers_of(value, self._context.simulation.nworld, world))

@@ -144,11 +144,11 @@ class PropertyPanel:
             each.what, each.input.shown.visible = None, False
 
     def _number(self) -> Any:
-        locked = self._context.only_looking
+        locked = self._context.read_only
         return self._context.gui.add_number("", 0.0, step=0.001, disabled=locked)
 
     def _box(self) -> Any:
-        return self._context.gui.add_checkbox("", False, disabled=self._context.only_looking)
+        return self._context.gui.add_checkbox("", False, disabled=self._context.read_only)
 
     def _read_soon(self) -> None:
         """Show with the next picture what the simulation made of a change."""

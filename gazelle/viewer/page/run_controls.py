@@ -40,17 +40,17 @@ class RunControls:
         self._meter = PaceMeter()
         self._speed_before: float | None = None
         self._status_text = ""
-        gui, careful = context.gui, context.careful
+        gui, guarded = context.gui, context.guarded
         self._status = gui.add_markdown("")
         self._speed: LiveInput | None = None
-        if context.only_looking:
+        if context.read_only:
             return
         with gui.add_folder("Run"):
             self._run = gui.add_button_group("Clock", ("run", "pause", "step", "reset"))
             self._steps = gui.add_number("Steps", 1, min=1, max=1_000_000, step=1)
             speeds = gui.add_dropdown("Speed", _SPEEDS, initial_value="1")
         self._speed = LiveInput(context, speeds, self._pace)
-        self._run.on_click(lambda event: careful(lambda: self.do(event.target.value)))
+        self._run.on_click(lambda event: guarded(lambda: self.do(event.target.value)))
 
     def read(self) -> ClockState:
         """Return the clock now."""

@@ -79,7 +79,7 @@ class PageServer(Closeable):
         except BaseException:
             self.close()
             raise
-        self._forbid_sharing()
+        self._refuse_shared_port()
         self.viser.on_client_connect(self._note)
         self.viser.on_client_disconnect(self._note)
 
@@ -148,7 +148,7 @@ class PageServer(Closeable):
                 hint='pip install "viser==1.1.1"',
             )
 
-    def _forbid_sharing(self) -> None:
+    def _refuse_shared_port(self) -> None:
         from viser import _messages
 
         for message in (_messages.ShareUrlRequest, _messages.ShareUrlDisconnect):

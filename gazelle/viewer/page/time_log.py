@@ -42,7 +42,7 @@ class TimeLog:
         self._play = gui.add_button("Play the log", disabled=True)
         self._info: Any = gui.add_markdown("")
         context.on_user_change(self._on, self._switch)
-        self._play.on_click(lambda _event: context.careful(self._replay))
+        self._play.on_click(lambda _event: context.guarded(self._replay))
 
     def read(self) -> tuple[float, float, float] | None:
         """Keep the present state if it is time; returns first, last and present time [s]."""

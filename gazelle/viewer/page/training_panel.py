@@ -29,7 +29,7 @@ class TrainingCurve:
     points: deque[tuple[int, dict[str, float]]] = field(default_factory=deque)
 
     def add(self, steps: int, summary: dict[str, float]) -> None:
-        """Add a point after so many control steps; the summary is `EpisodeLog.summary`'s."""
+        """Add a point after a given number of control steps; the summary is `EpisodeLog.summary`'s."""
         if len(self.points) >= _KEPT:
             self.points = deque(list(self.points)[::2])
         self.points.append((steps, dict(summary)))

@@ -33,15 +33,15 @@ class UserActions:
 
         def changed(event: Any) -> None:
             if event.client is not None:
-                self.careful(work)
+                self.guarded(work)
 
         handle.on_update(changed)
 
     def on_user_click(self, button: Any, work: Callable[[], None]) -> None:
         """Call a function when a user clicks a button."""
-        button.on_click(lambda _event: self.careful(work))
+        button.on_click(lambda _event: self.guarded(work))
 
-    def careful(self, work: Callable[[], None]) -> None:
+    def guarded(self, work: Callable[[], None]) -> None:
         """Call a function for a user; its errors are shown on the page and stop nothing."""
         try:
             work()

@@ -75,7 +75,7 @@ class Viewpoints:
                 camera.up_direction = (0.0, 0.0, 1.0)
                 camera.position, camera.look_at = eye, middle
 
-        context.careful(place)
+        context.guarded(place)
 
 
 def overview(context: PageContext, direction: Floats) -> tuple[Floats, Floats]:

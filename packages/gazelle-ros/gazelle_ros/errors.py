@@ -99,7 +99,7 @@ class NoListeningMasterError(MasterUnreachableError, RefusedConnectionError):
 
 
 class NoMasterError(MasterUnreachableError):
-    """Error for a server that answers, or stays silent, but is no ROS master."""
+    """Error for a server that answers, or stays silent, but is not a ROS master."""
 
 
 class ApiError(RosError):

@@ -13,13 +13,13 @@ def compiled(expression: str, error: type[RosError]) -> Callable[..., Any]:
 
     Args:
         expression: The user's own.
-        error: Raised where it is no expression, and by the function where it fails.
+        error: Raised where it is not an expression, and by the function where it fails.
     """
     shown = expression if len(expression) <= 80 else f"{expression[:80]}..."
     try:
         code = compile(expression, "filter", "eval")
     except (SyntaxError, ValueError, MemoryError, RecursionError) as fault:
-        raise error(f"'{shown}' is no Python expression: {fault}") from None
+        raise error(f"'{shown}' is not a Python expression: {fault}") from None
 
     def value(**names: Any) -> Any:
         try:

@@ -162,7 +162,7 @@ def addresses_of(host: str) -> list[str]:
     try:
         found = socket.getaddrinfo(host, None, type=socket.SOCK_STREAM)
     except UnicodeError:  # empty, too long, or with characters that names do not have
-        raise OSError(f"{host!r} is no name of a host") from None
+        raise OSError(f"{host!r} is not a name of a host") from None
     families = sorted(found, key=lambda entry: entry[0] != socket.AF_INET)
     return [str(entry[4][0]) for entry in families]
 
@@ -204,7 +204,7 @@ def _refuse_self(sock: socket.socket) -> None:
     """Raise an error for a connection of a local port to itself, which means there is no server."""
     with contextlib.suppress(OSError):
         if sock.getsockname() == sock.getpeername():
-            raise ConnectionRefusedError("nobody listens there")
+            raise ConnectionRefusedError("connection refused")
 
 
 def ignore_delay(sock: socket.socket) -> None:
@@ -226,7 +226,7 @@ def keep_alive(sock: socket.socket) -> None:
 def accept_all(
     listener: socket.socket, adopt: Callable[[socket.socket, Address], None], most: int = 64
 ) -> bool:
-    """Accept who waits, at most `most` of them.
+    """Accept waiting connections, at most `most` of them.
 
     Returns:
         False if the process has no file descriptor left; listening again at once is vain.

@@ -242,7 +242,7 @@ class Node(TopicNode, ServiceNode, Closeable):
         if uri == self.master_uri and not self._closing:
             self._registrar.alert()
 
-    def _miss_master(self) -> None:
+    def _handle_lost_master(self) -> None:
         self.loop.call_soon(self._registrar.alert)
 
     def _route(

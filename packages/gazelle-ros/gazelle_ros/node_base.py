@@ -117,9 +117,9 @@ class NodeBase(ABC):
             return self.master.call(method, *params)
         except (MasterUnreachableError, ApiError) as error:
             report(f"{method} of {self.name}", error)
-            self._miss_master()
+            self._handle_lost_master()
             return None
 
     @abstractmethod
-    def _miss_master(self) -> None:
+    def _handle_lost_master(self) -> None:
         """Handle a missing answer of the master: check it, and register again when it answers."""

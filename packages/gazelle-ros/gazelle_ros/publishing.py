@@ -220,7 +220,7 @@ class Publication:
             if publisher.introduced:
                 self._notify_publisher(publisher, peer, connected=connected)
 
-    def introduce(self, publisher: Publisher) -> None:
+    def notify_of_subscribers(self, publisher: Publisher) -> None:
         """Report present subscribers to a further publisher, as in roscpp.
 
         On the loop's thread.

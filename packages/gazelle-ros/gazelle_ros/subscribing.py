@@ -209,11 +209,11 @@ class Subscription:
         self._queue.post((link, data, message if data is None else None))
         limit = self.queue_size or _LOCAL_BACKLOG
         if len(self._queue.items) > limit and link.waits and self.queue_size is None:
-            self._let_catch_up(limit)
+            self._wait_for_queue(limit)
         while len(self._queue.items) > limit:
             self._drop_oldest()
 
-    def _let_catch_up(self, limit: int) -> None:
+    def _wait_for_queue(self, limit: int) -> None:
         """Block a publisher without queue size, though not for ever: it may wait for itself."""
         deadline = time.monotonic() + _LOCAL_PATIENCE_S
         while len(self._queue.items) > limit // 2 and not self._closed:
@@ -305,7 +305,7 @@ def _maker(message_class: Any) -> Callable[[], Any]:
 
 
 def _converted(message: Any, kind: Any, link: Any) -> Any:
-    """Return a message as its subscriber wants it: decoded, or as bytes."""
+    """Return a message as its subscriber requests it: decoded, or as bytes."""
     data = message._buff if isinstance(message, RawMessage) else frame(message)[4:]
     made = _maker(kind)()
     made.deserialize(data)

@@ -82,7 +82,7 @@ class TopicNode(NodeBase):
             publisher.introduced = True
             self._call_master("registerPublisher", name, message_class._type, self.uri)
         else:
-            self.loop.call_soon(functools.partial(publication.introduce, publisher))
+            self.loop.call_soon(functools.partial(publication.notify_of_subscribers, publisher))
         return publisher
 
     def subscribe(

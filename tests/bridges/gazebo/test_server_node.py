@@ -113,7 +113,7 @@ def test_a_flag_that_gzserver_does_not_have_is_refused(master, world):
 def test_a_second_simulator_is_refused_and_the_first_stays(master, world):
     with Node("gazebo", master_uri=master.uri) as first:
         first.advertise("/clock", load_message("rosgraph_msgs/Clock"))
-        with pytest.raises(RosError, match="a simulator is on this graph already: /gazebo"):
+        with pytest.raises(RosError, match="a simulator is already running on this graph: /gazebo"):
             serve([str(world)])
         assert not first.closed
         refuse_twin("/other/gazebo")

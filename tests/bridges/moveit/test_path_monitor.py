@@ -36,7 +36,7 @@ def test_what_comes_into_the_way_stops_a_motion(robot):
     assert client.wait_for_result(60.0)
     code = client.get_result().error_code.val
     assert code == PlanOutcome.MOTION_PLAN_INVALIDATED_BY_ENVIRONMENT_CHANGE
-    assert "came into the way" in client.get_goal_status_text()
+    assert "moved into the path" in client.get_goal_status_text()
 
 
 def test_what_is_passed_or_beside_the_way_does_not(robot):
@@ -64,7 +64,7 @@ def test_it_is_planned_anew_around_it(robot, caplog):
     assert client.wait_for_result(60.0)
     assert client.get_result().error_code.val == PlanOutcome.SUCCESS
     assert len(robot.goals) == 2
-    assert "planning anew" in caplog.text
+    assert "replanning" in caplog.text
     assert len(robot.goals[1][1].trajectory.points) > len(robot.goals[0][1].trajectory.points)
     until(lambda: abs(robot.client.group.context.monitor.current()[
         robot.client.group.context.robot.column(PAN)] - 1.0) < 0.01, 60.0)  # fmt: skip

@@ -43,4 +43,4 @@ def test_rosbridge_needs_a_graph(start):
     process = start("run", "empty", "--rosbridge")
     said, _ = process.communicate(timeout=60)
     assert process.returncode == 2
-    assert "add --ros" in said
+    assert "requires --ros" in said

@@ -71,7 +71,7 @@ def test_somebody_elses_callback_is_not_taken_away():
     try:
         with pytest.raises(EngineError, match="mjcb_control"):
             make_engine("mujoco", bouncing())
-        with pytest.warns(EngineWarning, match="what slides hops"):
+        with pytest.warns(EngineWarning, match="sliding bodies may hop"):
             make_engine("mujoco", scenes.world(scenes.ground(), scenes.box()))
         make_engine("mujoco", scenes.world(scenes.ground(0.0)))
     finally:

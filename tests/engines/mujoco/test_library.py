@@ -5,7 +5,7 @@ import pytest
 import scenes
 
 from gazelle.engines import make_engine
-from gazelle.engines.mujoco.library import settle
+from gazelle.engines.mujoco.library import disable_logging
 
 STEP = mujoco.mjtTimer.mjTIMER_STEP
 
@@ -14,8 +14,8 @@ STEP = mujoco.mjtTimer.mjTIMER_STEP
 def settled():
     yield
     mujoco.set_mjcb_time(None)
-    settle.cache_clear()
-    settle()
+    disable_logging.cache_clear()
+    disable_logging()
 
 
 def run():
@@ -33,7 +33,7 @@ def test_an_engine_stops_the_clock_and_the_results_stay():
     mujoco.set_mjcb_time(None)  # MuJoCo's own clock
     before, took = run()
     assert took > 0.0
-    settle.cache_clear()
+    disable_logging.cache_clear()
     make_engine("mujoco", scenes.world(scenes.ground()))
     after, took = run()
     assert took == 0.0
@@ -41,23 +41,23 @@ def test_an_engine_stops_the_clock_and_the_results_stay():
 
 
 def test_who_wants_the_times_later_gets_them():
-    settle()
+    disable_logging()
     mujoco.set_mjcb_time(None)
     make_engine("mujoco", scenes.world(scenes.ground()))
     assert run()[1] > 0.0
 
 
 def test_a_clock_that_somebody_set_is_left_alone():
-    settle.cache_clear()
+    disable_logging.cache_clear()
     mujoco.set_mjcb_time(lambda: 1.0)
-    settle()
+    disable_logging()
     assert mujoco.get_mjcb_time() is not None
 
 
 def test_no_log_file_is_written(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    settle.cache_clear()
-    settle()
+    disable_logging.cache_clear()
+    disable_logging()
     config = mujoco.MjLogConfig.get()
     assert not config.logto_file
     assert not config.logto_console

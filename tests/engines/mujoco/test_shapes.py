@@ -105,7 +105,7 @@ def test_pictures_that_cannot_be_read(tmp_path):
     with pytest.raises(FormatError, match="cannot be used"):
         make_engine("mujoco", scenes.world(bad))
     other = scenes.solid("dem", Heightmap("h.dem", tmp_path / "h.dem"), static=True)
-    with pytest.raises(FormatError, match=r"no elevation model of the USGS.*gdal_translate"):
+    with pytest.raises(FormatError, match=r"not an elevation model of the USGS.*gdal_translate"):
         make_engine("mujoco", scenes.world(other))
     missing = scenes.solid("gone", Heightmap("h.png", None), static=True)
     make_engine("mujoco", scenes.world(missing, scenes.ground()))

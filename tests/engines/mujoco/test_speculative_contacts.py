@@ -43,7 +43,7 @@ def test_small_balls_are_looked_for_on_their_way_where_there_are_few_pairs():
 
 
 def test_they_are_not_where_there_are_too_many_pairs_and_that_is_said():
-    with pytest.warns(EngineWarning, match="has 7 shapes that stand still and 3 that move"):
+    with pytest.warns(EngineWarning, match="has 7 static and 3 moving shapes"):
         assert not uses_speculative_contacts(city(7, 3))
 
 

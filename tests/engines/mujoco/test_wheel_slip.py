@@ -90,7 +90,7 @@ def test_links_of_one_model_still_collide_only_if_they_say_so():
 
 def test_what_is_no_wheel_does_not_slip():
     engine = fresh()
-    with pytest.raises(EngineError, match="no wheel"):
+    with pytest.raises(EngineError, match="not a wheel"):
         engine.set_parameter("wheel_slip", "base::body", SLIPS)
     with pytest.raises(EngineError, match="negative"):
         engine.set_parameter("wheel_slip", WHEELS[0], -SLIPS)

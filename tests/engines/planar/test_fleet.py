@@ -219,7 +219,7 @@ def roam(threads, nworld=1, count=300):
     scanner = Scanner(
         fleet, Fan.spread(math.pi, 60, 4.0), mounts, noise=RangeNoise(0.01), seed=5, named=True
     )
-    Roaming(fleet, scanner, RoamingSettings(shy=0.05), seed=4).run(40)
+    Roaming(fleet, scanner, RoamingSettings(avoid_distance=0.05), seed=4).run(40)
     return fleet, scanner
 
 

@@ -26,7 +26,7 @@ def lay_out(models, *, kinematic, others):
         driven = None if model.name in kinematic else Drive("omni")
         layout.bodies.append(Body(own, (model.pose.x, model.pose.y, 0.0), 0.0, driven))
         layout.names.append(model.name)
-        layout.riders.append(Body((), (float(others), 0.0, 0.0), 0.0))
+        layout.extra_bodies.append(Body((), (float(others), 0.0, 0.0), 0.0))
     return layout
 
 

@@ -340,7 +340,7 @@ FLAT = {
 
 
 def test_flat_parameters_are_moved_into_layers():
-    with pytest.warns(SimulationWarning, match="before Hydro"):
+    with pytest.warns(SimulationWarning, match="pre-Hydro"):
         made = costmap_of({**FLAT, "static_map": True, "global_frame": "/map"})
     static, obstacle, inflation = made.costmap.layers
     assert (type(static), type(obstacle)) == (StaticLayer, ObstacleLayer)

@@ -85,15 +85,15 @@ def test_doubtful_parameters_are_logged(values, text, caplog):
 @pytest.mark.parametrize(
     ("values", "text"),
     [
-        ({"odom0": "odom"}, "'odom0_config' is a list of 15 bools, not None"),
+        ({"odom0": "odom"}, "'odom0_config' must be a list of 15 bools, not None"),
         ({"odom0": "odom", "odom0_config": CONFIG[:-1]}, "a list of 15 bools"),
         ({"process_noise_covariance": [0.1] * 15}, "a list of 225 numbers"),
         ({"initial_state": [0.0] * 14 + ["x"]}, "a list of 15 numbers"),
-        ({"frequency": 0.0}, "frequency is above 0"),
-        ({"history_length": -1.0}, "'history_length' is not negative"),
+        ({"frequency": 0.0}, "frequency must be above 0"),
+        ({"history_length": -1.0}, "'history_length' must not be negative"),
         ({"odom_frame": "map"}, "are different frames"),
         ({"world_frame": "earth"}, "is the map_frame 'map' or the odom_frame 'odom'"),
-        ({"frequency": "fast"}, "'frequency' is a float"),
+        ({"frequency": "fast"}, "'frequency' must be of type float"),
     ],
 )
 def test_wrong_parameters_are_errors(values, text):

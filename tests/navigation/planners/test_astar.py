@@ -17,7 +17,7 @@ def reached(field):
 def test_in_the_open_the_goal_has_its_manhattan_distance_and_only_what_lies_between_is_reached():
     field = PotentialField(60, 80)
     source, goal = (20, 15), (50, 40)
-    assert field.seek(np.full((60, 80), 50, np.float32), source, goal, 50.0, 0)
+    assert field.search(np.full((60, 80), 50, np.float32), source, goal, 50.0, 0)
     assert field.values[40, 50] == 50.0 * (30 + 25)
     rows, columns = np.nonzero(reached(field))
     away = np.abs(columns - source[0]) + np.abs(rows - source[1])
@@ -34,7 +34,7 @@ def test_each_potential_is_that_of_a_neighbour_and_the_price(seed):
     prices = 50.0 + cluttered(seed).astype(np.float32)
     prices[prices >= 303] = 0.0
     field = PotentialField(*prices.shape)
-    field.seek(prices, (10, 10), (110, 110), 50.0, 0)
+    field.search(prices, (10, 10), (110, 110), 50.0, 0)
     values = field.values.astype(float)
     before = np.stack([np.roll(values, shift, axis) for shift in (1, -1) for axis in (0, 1)])
     cells = reached(field)
@@ -101,5 +101,5 @@ def test_a_goal_out_of_reach_is_reached_nearly():
 @pytest.mark.parametrize("start", [(0, 0), (9, 0), (9, 19), (0, 9), (19, 9), (19, 19)])
 def test_a_robot_on_the_outermost_cells_goes_inwards(start):
     field = PotentialField(20, 20)
-    found = field.seek(np.full((20, 20), 50.0, np.float32), start, (9, 9), 50.0)
+    found = field.search(np.full((20, 20), 50.0, np.float32), start, (9, 9), 50.0)
     assert found == (start[0] % 19 > 0 or start[1] % 19 > 0)

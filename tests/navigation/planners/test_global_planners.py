@@ -188,9 +188,9 @@ def test_a_plan_begins_at_the_robot_or_as_navfn_in_its_cell():
 @pytest.mark.parametrize(
     ("values", "text"),
     [
-        ({"publish_scale": 0}, "'publish_scale' is 1 to 100, not 0"),
-        ({"cost_factor": math.nan}, "'cost_factor' is a number from 0.01 to 5.0, not nan"),
-        ({"neutral_cost": "dear"}, "the parameter 'neutral_cost' is a int, not 'dear'"),
+        ({"publish_scale": 0}, "'publish_scale' must be 1 to 100, not 0"),
+        ({"cost_factor": math.nan}, "'cost_factor' must be a number from 0.01 to 5.0, not nan"),
+        ({"neutral_cost": "dear"}, "the parameter 'neutral_cost' must be of type int, not 'dear'"),
     ],
 )
 def test_wrong_parameters_are_refused(values, text):
@@ -271,7 +271,7 @@ def test_a_plan_of_another_shape_is_refused(shape):
         "dwa", costmap_of_cells(np.zeros((20, 20), np.uint8)), {}, 0.1
     )
     for plan in (np.zeros(shape), np.full((2, 3), math.nan)):
-        with pytest.raises(Error, match="a plan is finite poses"):
+        with pytest.raises(Error, match="a plan must be finite poses"):
             planner.set_plan(plan)
     assert planner.set_plan(np.zeros((2, 3)))
     assert not planner.set_plan(np.zeros((0, 3)))

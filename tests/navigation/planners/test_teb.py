@@ -193,13 +193,13 @@ def test_the_shape_of_the_robot(model, count, reach):
 @pytest.mark.parametrize(
     ("values", "text"),
     [
-        ({"dt_ref": 0.0}, "'dt_ref' is above 0, not 0.0"),
-        ({"weight_obstacle": -1.0}, "'weight_obstacle' is 0 or more, not -1.0"),
-        ({"min_samples": 2}, "'min_samples' is 3 to 'max_samples', not 2"),
+        ({"dt_ref": 0.0}, "'dt_ref' must be above 0, not 0.0"),
+        ({"weight_obstacle": -1.0}, "'weight_obstacle' must be 0 or more, not -1.0"),
+        ({"min_samples": 2}, "'min_samples' must be 3 to 'max_samples', not 2"),
         ({"footprint_model": {"type": "lime"}}, "'footprint_model/type' is no 'lime'"),
         ({"footprint_model": {"type": "circular"}}, "'footprint_model/radius' is missing"),
-        ({"footprint_model": {"type": "line", "line_start": [0, 0]}}, "is points [x, y]"),
-        ({"footprint_model": 3}, "'footprint_model' is a namespace, not 3"),
+        ({"footprint_model": {"type": "line", "line_start": [0, 0]}}, "must be points [x, y]"),
+        ({"footprint_model": 3}, "'footprint_model' must be a namespace, not 3"),
     ],
 )
 def test_wrong_parameters_are_refused(values, text):

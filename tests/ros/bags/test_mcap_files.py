@@ -57,7 +57,7 @@ def test_nothing_is_overwritten_and_nothing_half_done_stays(bag, tmp_path):
     with pytest.raises(BagError, match="there is such a file already"):
         write_mcap(str(bag), str(target))
     assert target.read_text() == "mine"
-    (tmp_path / "no.bag").write_text("no bag")
+    (tmp_path / "no.bag").write_text("not a bag")
     with pytest.raises(BagError):
         write_mcap(str(tmp_path / "no.bag"), str(tmp_path / "no.mcap"))
     assert not list(tmp_path.glob("no.mcap*"))

@@ -120,8 +120,8 @@ def test_sources_are_replaced_by_reconfiguration(robot, make_node):
         ("subscribers: []", "has no list 'subscribers'"),
         ("subscribers: [{name: a, topic: b, timeout: 1}]", "has no 'priority'"),
         ("[1, 2", "expected"),
-        (SOURCES + "\npublisher: 7", "is a topic, not 7"),
-        ("", "described nowhere"),
+        (SOURCES + "\npublisher: 7", "must be a topic, not 7"),
+        ("", "no sources are configured"),
     ],
 )
 def test_a_wrong_description_is_named(mux, text, words):

@@ -105,9 +105,9 @@ def test_a_group_is_as_bad_as_its_worst_part_and_stale_if_all_are(levels):
     [
         ({"type": "GenericAnalyser", "contains": "x"}, "a/power/type is no 'GenericAnalyser'"),
         ({"type": "GenericAnalyzer"}, "it would match nothing"),
-        ({"type": "GenericAnalyzer", "contains": 3}, "is a text or a list of texts, not 3"),
-        ({"type": "GenericAnalyzer", "regex": "("}, "is no regular expression"),
-        (5, "is a namespace with 'type' and 'path', not 5"),
+        ({"type": "GenericAnalyzer", "contains": 3}, "must be a text or a list of texts, not 3"),
+        ({"type": "GenericAnalyzer", "regex": "("}, "is not a regular expression"),
+        (5, "must be a namespace with 'type' and 'path', not 5"),
     ],
 )
 def test_wrong_analyzers_are_refused(values, words):

@@ -55,7 +55,7 @@ def test_names_are_numbered_as_in_c(pattern, names):
 
 
 @pytest.mark.parametrize(
-    ("pattern", "text"), [("a%i%i%i.jpg", "is no pattern"), ("frame%i", "no kind of image")]
+    ("pattern", "text"), [("a%i%i%i.jpg", "is not a pattern"), ("frame%i", "no kind of image")]
 )
 def test_a_wrong_pattern_is_an_error(pattern, text):
     with pytest.raises(Error, match=text):

@@ -272,9 +272,9 @@ def test_a_jump_back_in_time_begins_anew(filtered, caplog):
     ("kind", "parameters", "words"),
     [
         (MadgwickNode, {"world_frame": "neu"}, "the world_frame is 'neu'; did you mean"),
-        (MadgwickNode, {"constant_dt": -1.0}, "constant_dt is at least 0"),
-        (ComplementaryNode, {"gain_acc": 1.5}, "gain_acc is 0 to 1"),
-        (ComplementaryNode, {"use_mag": "yes"}, "'use_mag' is a bool"),
+        (MadgwickNode, {"constant_dt": -1.0}, "constant_dt must be at least 0"),
+        (ComplementaryNode, {"gain_acc": 1.5}, "gain_acc must be 0 to 1"),
+        (ComplementaryNode, {"use_mag": "yes"}, "'use_mag' must be of type bool"),
     ],
 )
 def test_a_wrong_parameter_is_an_error(make_node, kind, parameters, words):

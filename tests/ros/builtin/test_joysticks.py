@@ -167,7 +167,7 @@ def test_a_joystick_that_is_not_there_is_named_once_and_waited_for(
         until(lambda: any(each.status[0].message == "OK" for each in reports))
     finally:
         os.close(writer)
-    assert caplog.text.count("is looked for every second") == 1
+    assert caplog.text.count("retrying every second") == 1
 
 
 def test_a_joystick_is_found_by_its_name(make_node, monkeypatch, caplog):

@@ -172,7 +172,7 @@ def test_bumps_do_not_count_while_the_walker_is_disabled(drive):
 
 @pytest.mark.parametrize("name", ["update_rate", "angular_velocity"])
 def test_a_rate_of_the_walker_is_above_zero(drive, name):
-    with pytest.raises(Error, match=f"{name} is above 0 .*, not 0.0"):
+    with pytest.raises(Error, match=f"{name} must be above 0 .*, not 0.0"):
         drive(RandomWalker, **{name: 0})
 
 

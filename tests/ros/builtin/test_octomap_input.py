@@ -65,8 +65,8 @@ HEAD = b"# Octomap OcTree binary file\nid OcTree\nsize 1\nres 0.1\ndata\n"
 @pytest.mark.parametrize(
     ("data", "text"),
     [
-        (b"", "no file of OctoMap's OcTree"),
-        (HEAD.replace(b"OcTree binary", b"ColorOcTree"), "no file of OctoMap's OcTree"),
+        (b"", "not a file of OctoMap's OcTree"),
+        (HEAD.replace(b"OcTree binary", b"ColorOcTree"), "not a file of OctoMap's OcTree"),
         (HEAD.replace(b"res 0.1", b"res much"), "the head of the map is wrong"),
         (HEAD.replace(b"id OcTree", b"id Tree"), "the head of the map is wrong"),
         (HEAD + b"\x03", "ends in the middle"),

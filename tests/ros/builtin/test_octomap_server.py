@@ -111,7 +111,7 @@ def test_a_cell_alone_is_a_speckle():
     tree = VoxelMap(0.1, HitModel())
     points = np.array([[1.05, 0.05, 0.05], [1.15, 0.15, 0.05], [3.05, 0.05, 0.05]])
     tree.insert(np.array([0.05, 0.05, 2.05]), points)
-    assert tree.centers(tree.lonely())[:, 0] == pytest.approx([3.05])
+    assert tree.centers(tree.isolated())[:, 0] == pytest.approx([3.05])
 
 
 @pytest.mark.parametrize("fields", [{"hit": 0.4}, {"least": 0.5}, {"most": 1.0}])
@@ -346,7 +346,11 @@ def test_a_map_is_saved_as_a_file(mapping, master, monkeypatch, tmp_path, words,
 
 @pytest.mark.parametrize(
     ("words", "text"),
-    [([], "it takes one file"), (["map.ot"], "no name of such a map"), (["-f", "a.bt"], "no name")],
+    [
+        ([], "it takes one file"),
+        (["map.ot"], "not a name of such a map"),
+        (["-f", "a.bt"], "not a name"),
+    ],
 )
 def test_a_wrong_line_of_the_saver_is_an_error(words, text):
     with pytest.raises(Error, match=text):
@@ -356,12 +360,12 @@ def test_a_wrong_line_of_the_saver_is_an_error(words, text):
 @pytest.mark.parametrize(
     ("parameters", "text"),
     [
-        ({"resolution": 0.0}, "'resolution' is positive"),
+        ({"resolution": 0.0}, "'resolution' must be positive"),
         ({"colored_map": True}, "'colored_map' is not supported"),
-        ({"ground_filter/angle": 2.0}, "'angle' of ground_filter is from 0 to pi/2, not 2.0"),
+        ({"ground_filter/angle": 2.0}, "'angle' of ground_filter must be from 0 to pi/2, not 2.0"),
         ({"map_file": "nowhere.bt"}, "the map cannot be read"),
         ({"sensor_model/hit": 0.2}, "probabilities of a sensor_model"),
-        ({"sensor_model": 3}, "'sensor_model' is a mapping"),
+        ({"sensor_model": 3}, "'sensor_model' must be a mapping"),
     ],
 )
 def test_wrong_parameters_are_refused(make_node, parameters, text):

@@ -184,7 +184,7 @@ def test_without_a_terminal_it_says_so(master):
         check=False,
     )
     assert done.returncode == 1
-    assert "keys are read from a terminal" in done.stderr
+    assert "standard input is not a terminal" in done.stderr
     assert "Traceback" not in done.stderr
 
 

@@ -177,11 +177,11 @@ def test_a_started_node_reports_as_the_original_does(start, listen, make_node):
 @pytest.mark.parametrize(
     ("topics", "words"),
     [
-        ("nav_vel", "is a list"),
+        ("nav_vel", "must be a list"),
         ([7], r"topics\[0\] has name"),
         ([{"name": "a", "topic": "b", "timeout": 1.0}], r"topics\[0\] has no 'priority'"),
         ([TOPICS[0], TOPICS[1] | {"timeout": "soon"}], r"the timeout of /twist_mux/topics\[1\]"),
-        ([TOPICS[0] | {"timeout": float("nan")}], "is a number"),
+        ([TOPICS[0] | {"timeout": float("nan")}], "must be a number"),
         ([TOPICS[0] | {"priority": True}], "the priority of"),
         ([TOPICS[0] | {"topic": ""}], "the topic of"),
     ],
@@ -197,7 +197,7 @@ def test_doubtful_parameters_are_warned_of(mux, caplog):
     assert "unknown 'time_out'; did you mean 'timeout'" in caplog.text
     assert "priority 300 is taken for 255" in caplog.text
     mux(topics=[])
-    assert "no command will pass" in caplog.text
+    assert "no command is forwarded" in caplog.text
 
 
 def test_a_twist_is_drawn_as_an_arrow(start, make_node, listen):

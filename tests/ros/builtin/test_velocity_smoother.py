@@ -129,9 +129,9 @@ def test_the_node_publishes_on_its_private_topics(make_node, smoother, listen):
 @pytest.mark.parametrize(
     ("parameters", "words"),
     [
-        ({"frequency": 0.0}, "frequency is above 0"),
-        ({"robot_feedback": 3}, "robot_feedback is 0, 1 or 2"),
-        ({"accel_lim_v": "fast"}, "'accel_lim_v' is a float"),
+        ({"frequency": 0.0}, "frequency must be above 0"),
+        ({"robot_feedback": 3}, "robot_feedback must be 0, 1 or 2"),
+        ({"accel_lim_v": "fast"}, "'accel_lim_v' must be of type float"),
     ],
 )
 def test_a_wrong_parameter_is_an_error(smoother, parameters, words):

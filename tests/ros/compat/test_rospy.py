@@ -329,7 +329,7 @@ def test_what_is_no_master_is_not_waited_for(rospy, monkeypatch):
 
         threading.Thread(target=refuse, daemon=True).start()
         monkeypatch.setenv("ROS_MASTER_URI", f"http://127.0.0.1:{taken.getsockname()[1]}")
-        with pytest.raises(rospy.ROSInitException, match="is no ROS master"):
+        with pytest.raises(rospy.ROSInitException, match="is not a ROS master"):
             rospy.init_node("probe", disable_signals=True)
 
 

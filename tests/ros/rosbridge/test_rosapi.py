@@ -80,7 +80,7 @@ def test_parameters(ask, client):
     ask("delete_param", name="/tree")
     assert ask("has_param", name="/tree") == {"exists": False}
     client.say("call_service", service="/rosapi/set_param", args={"name": "/x", "value": "word"})
-    assert "no JSON" in client.hear()["msg"]
+    assert "not valid JSON" in client.hear()["msg"]
     client.hear()
 
 

@@ -250,9 +250,9 @@ def test_a_client_that_does_not_answer_fails_the_call(robot, bridge, how):
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("{", "no JSON"),
-        ("[" * 100_000, "no JSON"),
-        ("[]", "no JSON object"),
+        ("{", "not valid JSON"),
+        ("[" * 100_000, "not valid JSON"),
+        ("[]", "not a JSON object"),
         ("{}", "without an op"),
         ('{"op": "publsh"}', "did you mean 'publish'"),
         ('{"op": 5}', "Unknown operation"),
@@ -274,9 +274,9 @@ def test_a_client_that_does_not_answer_fails_the_call(robot, bridge, how):
             "has not been advertised",
         ),
         ('{"op": "set_level", "level": "loud"}', "loud"),
-        ('{"op": "fragment", "id": "x", "data": "", "num": 2, "total": 1}', "cannot be"),
-        ('{"op": "png", "data": "abcd"}', "no PNG"),
-        ('{"op": "auth", "mac": "x"}', "authenticates nobody"),
+        ('{"op": "fragment", "id": "x", "data": "", "num": 2, "total": 1}', "is invalid"),
+        ('{"op": "png", "data": "abcd"}', "not a PNG"),
+        ('{"op": "auth", "mac": "x"}', "does not support authentication"),
     ],
 )
 def test_what_is_wrong_is_said(client, text, said):
@@ -437,7 +437,7 @@ def test_settings_come_from_parameters_and_words(graph):
         assert settings.address == "0.0.0.0"
         assert settings.max_message_size is None
         for words, said in (
-            (["--prot", "1"], "no option"),
+            (["--prot", "1"], "not an option"),
             (["--port"], "without a value"),
             (["--port", "x"], "wants a number"),
             (["--authenticate"], "authenticated"),

@@ -11,7 +11,7 @@ from ros.graph import until
 from gazelle_ros import load_message, load_service
 from gazelle_ros.errors import ProtocolError, report
 from gazelle_ros.tools.errors import ToolError
-from gazelle_ros.tools.fields import texts_as_texts
+from gazelle_ros.tools.fields import keep_text_fields
 from gazelle_ros.tools.graph import GraphInspector
 from gazelle_ros.tools.listing import closest_topic, topic_type
 from gazelle_ros.tools.watching import wait_for_topic
@@ -48,12 +48,12 @@ def test_a_field_that_is_not_there_is_named(graph):
 
 def test_numbers_for_texts_are_texts():
     text = load_message("std_msgs/String")()
-    assert texts_as_texts(text, [2.0]) == ["2.0"]
-    assert texts_as_texts(text, [{"data": 5}]) == [{"data": "5"}]
-    assert texts_as_texts(text, [True]) == [True]
+    assert keep_text_fields(text, [2.0]) == ["2.0"]
+    assert keep_text_fields(text, [{"data": 5}]) == [{"data": "5"}]
+    assert keep_text_fields(text, [True]) == [True]
     request = load_service("gazelle_msgs/Step")._request_class()
-    assert texts_as_texts(request, [10]) == [10]
-    assert texts_as_texts(request, [1, 2]) == [1, 2]
+    assert keep_text_fields(request, [10]) == [10]
+    assert keep_text_fields(request, [1, 2]) == [1, 2]
 
 
 def test_what_a_peer_does_wrong_is_one_line_and_what_users_do_has_a_traceback(caplog):

@@ -134,7 +134,7 @@ def test_parameters_are_loaded_and_dumped(graph, tmp_path):
     params.load_parameters(graph, str(path), "/m")
     assert params.get_parameter(graph, "/m") == found
     path.write_text("a: [")
-    with pytest.raises(ToolError, match="no YAML"):
+    with pytest.raises(ToolError, match="not valid YAML"):
         params.load_parameters(graph, str(path))
     with pytest.raises(ToolError, match="cannot be read"):
         params.load_parameters(graph, "/no/such")

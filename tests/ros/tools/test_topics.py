@@ -197,7 +197,7 @@ def test_files_hold_documents(tmp_path):
     path.write_text("data: a\n---\ndata: b\n")
     assert file_documents(str(path)) == [[{"data": "a"}], [{"data": "b"}]]
     path.write_text("a: [")
-    with pytest.raises(ToolError, match="no YAML"):
+    with pytest.raises(ToolError, match="not valid YAML"):
         file_documents(str(path))
     with pytest.raises(ToolError, match="cannot be read"):
         file_documents("/no/such.yaml")

@@ -195,7 +195,7 @@ def test_a_missing_picture_is_an_error(tmp_path):
 
 @pytest.mark.parametrize(
     ("content", "said"),
-    [(b"no picture", "this is no picture"), (b"P5 3 3 255\n\0", "cannot be read")],
+    [(b"no picture", "this is not a picture"), (b"P5 3 3 255\n\0", "cannot be read")],
 )
 def test_a_broken_picture_is_an_error_with_the_line(tmp_path, content, said):
     (tmp_path / "map.pgm").write_bytes(content)

@@ -59,7 +59,7 @@ def test_numbers_may_have_a_sign_a_point_and_an_exponent(tmp_path):
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("resolution 1.2.3", "'1.2.3' is no number"),
+        ("resolution 1.2.3", "'1.2.3' is not a number"),
         ('name "open', "a string must end"),
         ("model ( pose [ 1 2\n3 4 ] )", "a tuple must end with ']'"),
         ("model ( pose [ 1 # 2 ] )", "a tuple must end with ']'"),
@@ -75,15 +75,15 @@ def test_numbers_may_have_a_sign_a_point_and_an_exponent(tmp_path):
         ("include", "the file ends too early: expected a file in quotes"),
         ("define a ( )", "expected a type in 'define NAME TYPE ( ... )'"),
         ("define a model size", "expected '(' in 'define NAME TYPE ( ... )'"),
-        ("model ( define a model ( ) )", "'define' may only stand outside"),
-        ('model ( include "a.inc" )', "'include' may only stand outside"),
+        ("model ( define a model ( ) )", "'define' is only allowed outside"),
+        ('model ( include "a.inc" )', "'include' is only allowed outside"),
         ("include here", "expected a file in quotes"),
         ("resolution [1 2]", "expected a number in 'resolution', found [1 2]"),
         ("name 3", "'name' must be a string in quotes, found 3"),
         ("model ( pose 3 )", "'pose' must be a tuple in brackets, found 3"),
         ("model ( size [1 2] )", "'size' must have 3 numbers, found [1 2]"),
         ('model ( size [1 "2" 3] )', "expected a number in 'size'"),
-        ("resolution 1e300", "'resolution' is out of all bounds"),
+        ("resolution 1e300", "'resolution' is out of range"),
     ],
 )
 def test_what_is_wrong_is_said_with_its_line(tmp_path, text, said):
@@ -177,8 +177,8 @@ def test_macros_of_a_file_of_macros_are_judged_though_nobody_uses_them(tmp_path)
     with pytest.warns(FormatWarning) as said:
         assert read(tmp_path, text).models == ()
     first, second = (str(each.message) for each in said)
-    assert "test.world:1: <sise>: 'sise' is no property of a model" in first
-    assert "test.world:2: <size>: nothing can be made of 'b': 'size' must have 3" in second
+    assert "test.world:1: <sise>: 'sise' is not a property of a model" in first
+    assert "test.world:2: <size>: cannot create 'b': 'size' must have 3" in second
 
 
 def test_a_macro_is_known_only_below_its_definition(tmp_path):

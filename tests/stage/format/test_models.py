@@ -225,7 +225,7 @@ def test_the_body_stands_in_the_frame_of_its_origin(tmp_path):
         ("map ( )", "write a model with a bitmap"),
         ("wifi ( )", "no wifi"),
         ("position ( sensor ( ) )", "a sensor must stand in a ranger"),
-        ("sensor ( )", "cannot stand here"),
+        ("sensor ( )", "is not allowed here"),
         ('position ( drive "dif" )', "did you mean 'diff'?"),
         ('position ( localization "gsp" )', "did you mean 'gps'?"),
         ("position ( wheelbase 0 )", "greater than zero"),
@@ -238,7 +238,7 @@ def test_the_body_stands_in_the_frame_of_its_origin(tmp_path):
         ("interval_sim 0", "a time in ms"),
         ("resolution 0", "a length in m"),
         ("model ( ctrl 3 )", "must name a controller"),
-        ('model ( name "a::b" )', "no name"),
+        ('model ( name "a::b" )', "not a name"),
     ],
 )
 def test_what_cannot_be_is_refused_with_a_hint(tmp_path, text, said):
@@ -251,13 +251,13 @@ def test_what_cannot_be_is_refused_with_a_hint(tmp_path, text, said):
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("model ( colour 3 )", "'colour' is no property of a model, and ignored; did you mean"),
-        ("ranger ( sensor ( fow 3 ) )", "'fow' is no property of a sensor"),
+        ("model ( colour 3 )", "'colour' is not a property of a model, and ignored; did you mean"),
+        ("ranger ( sensor ( fow 3 ) )", "'fow' is not a property of a sensor"),
         ("resolutoin 3", "did you mean 'resolution'?"),
         ("interval_real 100", "'interval_real' is not a property in Stage 4"),
         ("model ( laser_return 1 )", "'laser_return' is of Stage 3"),
         ("ranger ( sensor ( range_max 6.5 ) )", "write range [ min max ]"),
-        ('model ( color "blurple" )', "'blurple' is no colour of X11"),
+        ('model ( color "blurple" )', "'blurple' is not an X11 color"),
         ('position ( ctrl "fasr 3" )', "the controller 'fasr' is a program for Stage itself"),
         ("model ( size3 [1 2 3] )", "it is read as 'size'"),
         ("laser ( range_max 4 samples 90 )", "read as a ranger"),

@@ -259,7 +259,7 @@ def test_a_time_of_nan_is_refused(pilot):
 
 @pytest.mark.parametrize("text", ["1,2\n3,4", "", '"', "1", "nan,1", "1e400,1"])
 def test_a_text_that_is_no_goal(text):
-    with pytest.raises(ValueError, match="is no goal"):
+    with pytest.raises(ValueError, match="is not a goal"):
         parse_goal(text)
 
 
@@ -322,5 +322,5 @@ def test_a_policy_without_velocities_is_refused(tmp_path, straight_on):
     told["action"] = {"kind": "other", "type": "discrete"}
     (tmp_path / "a.json").write_text(json.dumps(told))
     (tmp_path / "a.npz").write_bytes(straight_on.read_bytes())
-    with pytest.raises(TaskError, match="no velocities"):
+    with pytest.raises(TaskError, match="not velocities"):
         open_policy(tmp_path / "a.npz")

@@ -55,7 +55,7 @@ _FULL = 0.9999
 # Stiffer springs than this are as good as rigid [N/m]; SDF's default is 1e12.
 _STIFFEST = 1e9
 
-# A spring is felt when its period with the mass on it takes at least so many steps. With all
+# A spring is felt when its period with the mass on it takes at least this number of steps. With all
 # springs below a body together, or an impact would put more energy into them than it had.
 _FEWEST_STEPS_A_PERIOD = 10.0
 
@@ -112,12 +112,12 @@ class Pairs:
     Attributes:
         springs: To be tuned by ``tune_springs`` when the model is compiled.
         bounces: Whether some bounce.
-        rubs: Directions of friction by geom, if it differs by direction between some.
+        directional_friction: Directional friction by geom, if some have it.
     """
 
     springs: list[Spring]
     bounces: bool
-    rubs: Mapping[str, DirectionalFriction]
+    directional_friction: Mapping[str, DirectionalFriction]
 
 
 def add_pairs(
@@ -138,8 +138,8 @@ def add_pairs(
         if count == _MOST_PAIRS:
             warnings.warn(
                 EngineWarning(
-                    f"more than {_MOST_PAIRS} pairs of surfaces bounce, are springy or rub by "
-                    "direction; the others are rigid and rub alike in all directions"
+                    f"more than {_MOST_PAIRS} contact pairs have restitution, compliance or directional "
+                    "friction; the others are rigid with isotropic friction"
                 ),
                 stacklevel=2,
             )

@@ -10,7 +10,7 @@ import mujoco
 from gazelle.description import Box, Capsule, Cylinder, Ellipsoid, Model, Sphere, World
 from gazelle.errors import EngineWarning
 
-# From so many free bodies on the time saved outweighs an ``MjData`` for every world.
+# From this number of free bodies on the time saved outweighs an ``MjData`` for every world.
 _MANY = 16
 
 # Speed below which a body may go to sleep [m/s]. At MuJoCo's 1e-3 a pendulum that swings
@@ -69,9 +69,9 @@ def limit_speculative_contacts(model: mujoco.MjModel, world: World) -> None:
     model.opt.enableflags &= ~ahead
     warnings.warn(
         EngineWarning(
-            f"the world has {count} shapes that stand still and {moving} that move, too many to be "
-            "looked at in every step: a small body that is faster than 20 m/s may pass through "
-            "something thin. sim.physics.speculative_contacts = True looks at them all the same"
+            f"the world has {count} static and {moving} moving shapes, too many for "
+            "speculative contacts in every step: a small body that is faster than 20 m/s may pass "
+            "through something thin. Set sim.physics.speculative_contacts = True to enable them"
         ),
         stacklevel=5,
     )

@@ -64,7 +64,7 @@ def inertia_of(body: TreeLink) -> tuple[Floats, Floats]:
     return np.maximum(moments[0], LEAST_MOMENT), axes[0]
 
 
-def give_inertias(model: mujoco.MjModel, bodies: Iterable[TreeLink]) -> None:
+def restore_inertias(model: mujoco.MjModel, bodies: Iterable[TreeLink]) -> None:
     """Restore the file's moments of links with compiled ones that had to be raised."""
     changed = False
     for body in bodies:

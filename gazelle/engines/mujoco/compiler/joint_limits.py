@@ -15,7 +15,7 @@ import mujoco
 from gazelle.description import JointAxis, JointPhysics
 from gazelle.kinematics.tree import TreeLink
 
-# A spring is followed when its period with what it moves takes at least so many steps.
+# A spring is followed when its period with what it moves takes at least this number of steps.
 _FEWEST_STEPS_A_PERIOD = 10.0
 
 # SDF's default, which no file means as a spring.

@@ -54,7 +54,7 @@ def _warn_of(draft: Draft) -> None:
     extras = draft.extras
     lacking = {
         "bounces are less exact": extras.bounces,
-        "friction differs along world y and x, not along fdir1": extras.rubs,
+        "friction differs along world y and x, not along fdir1": extras.directional_friction,
         "bodies that tumble freely drift": extras.tumbling and not any(draft.spec.option.gravity),
         "slip bodies drift off their wheels": draft.slips,
     }

@@ -37,7 +37,7 @@ AXES = {
 # under a heavy robot would else be turned by the robot.
 _SHARE = 0.01
 
-# Numbers of a motor in MuJoCo's user data: the wanted velocity, and what the softness took of
+# Numbers of a motor in MuJoCo's user data: the commanded velocity, and the part lost to compliance of
 # the acceleration in the last step.
 NUMBERS = 2
 
@@ -48,7 +48,7 @@ class Motor:
 
     Attributes:
         joint: Scoped name.
-        max_effort: Of each axis [N or N m]; zero is a motor that is off.
+        max_effort: Of each axis [N or N m]; zero disables the motor.
     """
 
     joint: str
@@ -60,13 +60,13 @@ class MotorSlot:
     """Indices of a joint's motors.
 
     Attributes:
-        targets: Columns of the wanted velocities in ``userdata``, one an axis, and MuJoCo's
+        targets: Columns of the commanded velocities in ``userdata``, one an axis, and MuJoCo's
             indices of the tendons.
-        givings: Columns of what the softness took.
+        deflections: Columns of the acceleration lost to compliance in the last step.
     """
 
     targets: slice
-    givings: slice
+    deflections: slice
 
 
 def motor_of(
@@ -84,13 +84,13 @@ def motor_of(
         kinematic: Models that move by placing alone, and have no joints then.
 
     Raises:
-        EngineError: The joint cannot have a motor, or an effort cannot be.
+        EngineError: The joint cannot have a motor, or an effort is invalid.
     """
     moving = (bodies for model, bodies in parts.items() if model not in kinematic)
     axes = AXES.get(_type_of(joint, moving), 0)
     if not axes:
         raise EngineError(
-            f"joint '{joint}' has no axis that a motor could turn",
+            f"joint '{joint}' has no axis for a motor",
             hint=f"joints that can have one are {', '.join(sorted(AXES))}",
         )
     try:
@@ -106,7 +106,7 @@ def motor_of(
         raise EngineError(
             f"the largest effort of the motor on '{joint}' must be finite and not negative, "
             f"not {', '.join(f'{each:g}' for each in efforts)}",
-            hint="zero is a motor that is off",
+            hint="zero disables the motor",
         )
     return Motor(joint, tuple(efforts.tolist()))
 
@@ -128,8 +128,8 @@ def refuse_motors(model: str, motors: Iterable[str]) -> None:
     """
     if any(joint.startswith(f"{model}::") for joint in motors):
         raise EngineError(
-            f"model '{model}' has motors on its joints and cannot be moved by placing it alone",
-            hint="a kinematic model has no joints; take the plugin that drives it away",
+            f"model '{model}' has motors on its joints and cannot be kinematic",
+            hint="a kinematic model has no joints; remove the plugin that drives it",
         )
 
 

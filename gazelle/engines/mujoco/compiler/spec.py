@@ -26,7 +26,7 @@ from gazelle.engines.mujoco.compiler.description_edits import with_frame_link
 from gazelle.engines.mujoco.compiler.equality_constraints import add_closure, add_couplings, at_rest
 from gazelle.engines.mujoco.compiler.free_bodies import limit_speculative_contacts
 from gazelle.engines.mujoco.compiler.gyroscopic_forces import swings, tumbling
-from gazelle.engines.mujoco.compiler.inertia import give_inertias, inertia_of, possible
+from gazelle.engines.mujoco.compiler.inertia import inertia_of, possible, restore_inertias
 from gazelle.engines.mujoco.compiler.joint_limits import tune_stops
 from gazelle.engines.mujoco.compiler.joints import add_joint
 from gazelle.engines.mujoco.compiler.motors import Motor, add_motors, motor_count, stiffen
@@ -41,20 +41,20 @@ from gazelle.engines.mujoco.compiler.rotors import soften_rotors
 from gazelle.engines.mujoco.compiler.shapes import CONTACT_GROUP, ShapeBuilder
 from gazelle.engines.mujoco.compiler.surfaces import (
     friction_ranks,
-    hold_fast,
+    stiffen_friction,
     surface_options,
 )
 from gazelle.engines.mujoco.compiler.unsupported import warn_of_links, warn_of_plane
 from gazelle.engines.mujoco.compiler.welds import Attachment, add_attachments
-from gazelle.engines.mujoco.compiler.wheel_contacts import possible_treads
+from gazelle.engines.mujoco.compiler.wheel_contacts import find_wheel_geoms
 from gazelle.engines.mujoco.compiler.wheel_slip import (
     Slip,
-    add_tyre,
+    add_slip_body,
+    constrain_slip_bodies,
     described_slips,
-    hold_tyres,
+    slip_body_name,
     slipping,
     tune_slips,
-    tyre_name,
     warn_of_losses,
 )
 from gazelle.engines.mujoco.compiler.world_geoms import WorldGeoms
@@ -77,7 +77,7 @@ class CompilerInput:
         kinematic: Names of kinematic models.
         motors: By scoped joint name.
         attachments: Pairs of links that can be held together at run time.
-        tyres: Links with shapes that may slip in proportion to the force.
+        slip_links: Links with shapes that may slip in proportion to the force.
         damped: Whether joints may be damped that the world's are not.
         hooks: Address of what takes commands within steps; 0 for none.
     """
@@ -87,7 +87,7 @@ class CompilerInput:
     kinematic: frozenset[str] = frozenset()
     motors: Mapping[str, Motor] = field(default_factory=dict)
     attachments: tuple[Attachment, ...] = ()
-    tyres: frozenset[str] = frozenset()
+    slip_links: frozenset[str] = frozenset()
     damped: bool = False
     hooks: int = 0
 
@@ -152,8 +152,8 @@ class Draft:
         except ValueError as error:
             raise EngineError(f"MuJoCo cannot simulate this world: {_first_line(error)}") from error
         if as_written:
-            give_inertias(compiled, itertools.chain.from_iterable(self.bodies.values()))
-        hold_fast(compiled)
+            restore_inertias(compiled, itertools.chain.from_iterable(self.bodies.values()))
+        stiffen_friction(compiled)
         soften_rotors(compiled)
         self.spec.option.impratio = compiled.opt.impratio
         tune_springs(compiled, self.springs)
@@ -214,7 +214,7 @@ def draft_world(recipe: CompilerInput) -> Draft:
     trees = trees_of(recipe)
     bodies = {name: tree.bodies for name, tree in trees.items()}
     held = {body.name for parts in bodies.values() for body in parts if body.root is not None}
-    slips = slipping(described_slips(bodies.values()), recipe.tyres - held)
+    slips = slipping(described_slips(bodies.values()), recipe.slip_links - held)
     builder = _SpecBuilder(spec, recipe, bodies, slips)
     for model in recipe.world.models:
         builder.add_model(model)
@@ -225,7 +225,7 @@ def draft_world(recipe: CompilerInput) -> Draft:
             add_closure(spec, closure, tree.bodies, recipe.time_step)
     add_motors(spec, recipe.motors.values(), recipe.time_step)
     add_attachments(spec, recipe.attachments, bodies)
-    hold_tyres(spec, slips, recipe.time_step)
+    constrain_slip_bodies(spec, slips, recipe.time_step)
     if world_needs_cone(builder.solids):
         spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     warn_of_losses(bodies.values(), slips)
@@ -233,7 +233,7 @@ def draft_world(recipe: CompilerInput) -> Draft:
     for model in recipe.world.models:
         warn_of_free_links(model)
     pairs = add_pairs(spec, builder.solids, recipe.time_step, math.hypot(*recipe.world.gravity))
-    if pairs.springs or pairs.bounces or pairs.rubs:
+    if pairs.springs or pairs.bounces or pairs.directional_friction:
         # In a pyramid friction would give way with the spring, by a factor of 1 / mu² more,
         # and bounce with what bounces; its sides do not turn.
         spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
@@ -242,11 +242,11 @@ def draft_world(recipe: CompilerInput) -> Draft:
     slides = may_slide(builder.solids)
     extras = LawSelection(
         bounces=pairs.bounces,
-        rubs=pairs.rubs,
+        directional_friction=pairs.directional_friction,
         tumbling=tumbling(recipe.world, bodies),
         motors=motor_count(recipe.motors),
         slides=slides,
-        treads=possible_treads(bodies.values(), builder.geoms) if slides else {},
+        wheel_geoms=find_wheel_geoms(bodies.values(), builder.geoms) if slides else {},
         exits=recovery_velocities_of(builder.solids, recipe.world),
         swings=swings(recipe.world, bodies),
         hooks=recipe.hooks,
@@ -271,14 +271,14 @@ class _SpecBuilder:
         spec: mujoco.MjSpec,
         recipe: CompilerInput,
         bodies: Mapping[str, list[TreeLink]],
-        tyres: Collection[str],
+        slip_links: Collection[str],
     ) -> None:
         self._spec = spec
         self.world = WorldGeoms(spec)
         self._time_step = recipe.time_step
         self._bodies = bodies
         self._by_name = {body.name: body for parts in bodies.values() for body in parts}
-        self._tyres = tyres
+        self._slip_links = slip_links
         self.shapes = ShapeBuilder(spec, self.world.name_later)
         self.geoms: dict[str, list[str]] = {}
         self._masses = {
@@ -317,7 +317,7 @@ class _SpecBuilder:
             add_joint(handle, body.joint_name, body.joint, self._time_step)
         if body.root != "kinematic":
             _set_inertial(handle, body)
-        shaped = add_tyre(handle, body) if body.name in self._tyres else handle
+        shaped = add_slip_body(handle, body) if body.name in self._slip_links else handle
         self._add_shapes(lambda **geom: shaped.add_geom(**geom).name, body, Pose())
         return handle
 
@@ -359,14 +359,14 @@ class _SpecBuilder:
         """Exclude contacts between links of one model unless both enable them, as in Gazebo."""
         solid = [body for body in bodies if body.link.collisions and body.root != "static"]
         for first, second in itertools.combinations(solid, 2):
-            neighbours = second.name in self._tyres and second.parent == first.name
+            neighbours = second.name in self._slip_links and second.parent == first.name
             if neighbours or not (first.self_collide and second.self_collide):
                 one, two = self._solid_body(first), self._solid_body(second)
                 self._spec.add_exclude(bodyname1=one, bodyname2=two)
 
     def _solid_body(self, body: TreeLink) -> str:
         """Return MuJoCo's body that has the shapes of a link."""
-        return tyre_name(body.name) if body.name in self._tyres else body.name
+        return slip_body_name(body.name) if body.name in self._slip_links else body.name
 
 
 def _set_inertial(handle: Any, body: TreeLink) -> None:

@@ -85,7 +85,7 @@ def rigid_terms(time_step: float) -> dict[str, list[float]]:
     }
 
 
-def hold_fast(model: mujoco.MjModel) -> None:
+def stiffen_friction(model: mujoco.MjModel) -> None:
     """Set friction to creep as little as the solver can do."""
     if model.opt.cone == mujoco.mjtCone.mjCONE_PYRAMIDAL:
         model.opt.impratio = _RATIO_IN_A_PYRAMID
@@ -99,8 +99,8 @@ def hold_fast(model: mujoco.MjModel) -> None:
 def friction_ranks(collisions: Iterable[Collision]) -> dict[float, int]:
     """Return a contact priority for each friction coefficient, the slipperiest the highest.
 
-    ODE takes the smaller coefficient of two surfaces, MuJoCo that of the geom with the
-    higher priority, so the order by slipperiness makes the second do what the first does.
+    ODE uses the smaller coefficient of two surfaces, MuJoCo that of the geom with the higher
+    priority. With priorities in the reverse order of coefficients both use the smaller one.
     """
     values = {friction_of(collision) for collision in collisions}
     return {value: rank for rank, value in enumerate(sorted(values, reverse=True))}

@@ -22,7 +22,7 @@ def warn_of_links(models: Iterable[Sequence[TreeLink]]) -> None:
     moving = [body for bodies in models for body in bodies if body.root != "static"]
     _warn(
         [body for body in moving if _is_tiny(body)],
-        f"a moment of inertia below {LEAST_MOMENT:g} kg m², which was taken for it",
+        f"a moment of inertia below {LEAST_MOMENT:g} kg m², which was used instead",
     )
     _warn(
         [body for body in moving if _decays(body)],

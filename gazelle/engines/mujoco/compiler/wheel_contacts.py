@@ -17,7 +17,7 @@ _ROUND = 0.05
 # Cosine of the angle from its axle at which a cylinder is no tread any more.
 _COAXIAL = 0.999
 
-# What is wider than so many radii is a roller: where along it the ground rubs does matter.
+# A cylinder wider than this number of radii is a roller, where the place of contact along the axle matters.
 _WIDEST = 4.0
 
 _DIRECTIONS = 16
@@ -26,7 +26,7 @@ _DIRECTIONS = 16
 _LIMITLESS = 100.0
 
 
-def possible_treads(
+def find_wheel_geoms(
     models: Iterable[Sequence[TreeLink]], geoms: Mapping[str, Sequence[str]]
 ) -> dict[str, str]:
     """Return geoms that may be wheel surfaces, by MuJoCo's names, with their wheels' joints.

@@ -1,4 +1,4 @@
-"""Wheel slip in proportion to force: SDF's ``<slip1>`` and ``<slip2>`` as bodies of tyres.
+"""Wheel slip in proportion to force: SDF's ``<slip1>`` and ``<slip2>`` as extra bodies on wheels.
 
 ODE lets a contact slip: a velocity of ``slip`` times the friction force, within the friction.
 MuJoCo's contacts have no such term, but its joints can: the shapes of a wheel are put on a body
@@ -7,11 +7,11 @@ by a constraint on the velocity v alone. In a step of h it is solved for v = -h 
 the constraint's regularisation and f its force; so R = slip / h. The solver takes it together
 with the contacts, which makes it as stable as a rigid wheel.
 
-Where the tyre is on its wheel does not matter, as contacts remember nothing: it is put back
+Where the slip body is on its wheel does not matter, as contacts remember nothing: it is put back
 before every step.
 
 In ODE a contact slips at ``slip1`` times the friction force along its first direction and at
-``slip2`` across it. A tyre knows the directions of its axle only: along it and the way that the
+``slip2`` across it. A slip body knows the directions of its axle only: along it and the way that the
 wheel rolls.
 """
 
@@ -42,13 +42,13 @@ from gazelle.kinematics.tree import TreeLink
 # MuJoCo's bounds of an impedance.
 _LEAST, _MOST = 1e-4, 0.9999
 
-# What a tyre itself weighs [kg]; its inertia against the wheel is an armature.
+# What a slip body itself weighs [kg]; its inertia against the wheel is an armature.
 _MASS, _MOMENT = 1e-6, 1e-9
 
 
 @dataclass(frozen=True, slots=True)
-class TyreSlot:
-    """Indices of a tyre in MuJoCo's arrays: first along the axle, then about it.
+class SlipSlot:
+    """Indices of a slip body in MuJoCo's arrays: first along the axle, then about it.
 
     Attributes:
         positions: Columns in ``qpos``.
@@ -61,13 +61,13 @@ class TyreSlot:
     equalities: tuple[int, int]
 
 
-def tyre_name(link: str) -> str:
-    """Return the name of MuJoCo's body of a tyre."""
-    return f"{link}#tyre"
+def slip_body_name(link: str) -> str:
+    """Return the name of a slip body."""
+    return f"{link}#slip"
 
 
-def add_tyre(wheel: Any, body: TreeLink) -> Any:
-    """Add a tyre to a wheel; returns MuJoCo's body of it, at the wheel's pose.
+def add_slip_body(wheel: Any, body: TreeLink) -> Any:
+    """Add a slip body to a wheel; returns it, at the wheel's pose.
 
     Raises:
         EngineError: The link does not turn on an axle.
@@ -75,31 +75,31 @@ def add_tyre(wheel: Any, body: TreeLink) -> Any:
     joint = body.joint
     if joint is None or not joint.axes or joint.type not in {"continuous", "revolute"}:
         raise EngineError(
-            f"link '{body.name}' is no wheel: it needs a revolute joint to its parent",
+            f"link '{body.name}' is not a wheel: it needs a revolute joint to its parent",
             source=body.link.source,
         )
     axis = np.array(joint.pose.rotate(joint.axes[0].xyz))
-    tyre = wheel.add_body(name=tyre_name(body.name))
-    tyre.explicitinertial = True
-    tyre.mass, tyre.inertia = _MASS, [_MOMENT] * 3
-    tyre.ipos = list(joint.pose.position)
+    slip_body = wheel.add_body(name=slip_body_name(body.name))
+    slip_body.explicitinertial = True
+    slip_body.mass, slip_body.inertia = _MASS, [_MOMENT] * 3
+    slip_body.ipos = list(joint.pose.position)
     inertial = body.link.inertial or Inertial()
     for name, kind, armature in (
         (_slide(body.name), mujoco.mjtJoint.mjJNT_SLIDE, inertial.mass),
         (_turn(body.name), mujoco.mjtJoint.mjJNT_HINGE, _moment_about(axis, inertial)),
     ):
-        tyre.add_joint(
+        slip_body.add_joint(
             name=name,
             type=kind,
             axis=axis.tolist(),
             pos=list(joint.pose.position),
             armature=armature,
         )
-    return tyre
+    return slip_body
 
 
-def hold_tyres(spec: mujoco.MjSpec, links: Iterable[str], time_step: float) -> None:
-    """Constrain tyres to their wheels, rigidly until ``set_slip``."""
+def constrain_slip_bodies(spec: mujoco.MjSpec, links: Iterable[str], time_step: float) -> None:
+    """Constrain slip bodies to their wheels, rigidly until ``set_slip``."""
     for link in sorted(links):
         for name in (_slide(link), _turn(link)):
             held = spec.add_equality(name=name, type=mujoco.mjtEq.mjEQ_JOINT, name1=name)
@@ -108,23 +108,23 @@ def hold_tyres(spec: mujoco.MjSpec, links: Iterable[str], time_step: float) -> N
             held.solimp = [_MOST, _MOST, 0.001, 0.5, 2.0]
 
 
-def tyre_slot(model: mujoco.MjModel, link: str) -> TyreSlot | None:
-    """Return the slot of a link's tyre; None if it has none."""
+def slip_slot(model: mujoco.MjModel, link: str) -> SlipSlot | None:
+    """Return the slot of a link's slip body; None if it has none."""
     names = (_slide(link), _turn(link))
     joints = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, name) for name in names]
     if min(joints) < 0:
         return None
     one, two = joints
     held = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_EQUALITY, name) for name in names]
-    return TyreSlot(
+    return SlipSlot(
         (int(model.jnt_qposadr[one]), int(model.jnt_qposadr[two])),
         (int(model.jnt_dofadr[one]), int(model.jnt_dofadr[two])),
         (held[0], held[1]),
     )
 
 
-def set_slip(batch: Batch, slot: TyreSlot, slip: Floats) -> None:
-    """Set the slip of a tyre per force, shape (nworld, 2): [m/s/N] and [rad/s/(N m)]."""
+def set_slip(batch: Batch, slot: SlipSlot, slip: Floats) -> None:
+    """Set the slip of a slip body per force, shape (nworld, 2): [m/s/N] and [rad/s/(N m)]."""
     step, dofs = float(batch.model.opt.timestep), list(slot.dofs)
     own = batch.expanded("dof_invweight0")
     mobility = batch.model.dof_invweight0[dofs] if own is None else own[:, dofs]
@@ -135,10 +135,10 @@ def set_slip(batch: Batch, slot: TyreSlot, slip: Floats) -> None:
 
 
 def tune_slips(model: mujoco.MjModel, slips: Mapping[str, tuple[float, float]]) -> None:
-    """Set the slip of tyres of a compiled model: [m/s/N] and [rad/s/(N m)]."""
+    """Set the slip of slip bodies of a compiled model: [m/s/N] and [rad/s/(N m)]."""
     step = float(model.opt.timestep)
     for link, slip in slips.items():
-        slot = tyre_slot(model, link)
+        slot = slip_slot(model, link)
         if slot is not None and any(slip):
             share = _share(np.array(slip), step, model.dof_invweight0[list(slot.dofs)])
             held = list(slot.equalities)
@@ -146,8 +146,8 @@ def tune_slips(model: mujoco.MjModel, slips: Mapping[str, tuple[float, float]]) 
             model.eq_solref[held, 1] = -share / step
 
 
-def compiled_slip(model: mujoco.MjModel, slot: TyreSlot) -> Floats:
-    """Return the slip of a tyre of a compiled model per force: [m/s/N] and [rad/s/(N m)]."""
+def compiled_slip(model: mujoco.MjModel, slot: SlipSlot) -> Floats:
+    """Return the slip of a slip body of a compiled model per force: [m/s/N] and [rad/s/(N m)]."""
     share = model.eq_solimp[list(slot.equalities), 0]
     mobility = model.dof_invweight0[list(slot.dofs)]
     slip: Floats = (1.0 / share - 1.0) * float(model.opt.timestep) * mobility
@@ -252,8 +252,8 @@ def _placed(bodies: Sequence[TreeLink]) -> Iterator[tuple[TreeLink, Pose]]:
 
 def _has_slip(collision: Collision) -> bool:
     friction = collision.surface.friction
-    rubs = friction.mu > 0.0 or friction.mu2 > 0.0
-    return rubs and (friction.slip1 > 0.0 or friction.slip2 > 0.0)
+    has_friction = friction.mu > 0.0 or friction.mu2 > 0.0
+    return has_friction and (friction.slip1 > 0.0 or friction.slip2 > 0.0)
 
 
 def _slip_of(collision: Collision, body: TreeLink, pose: Pose) -> Slip | None:
@@ -290,6 +290,6 @@ def _first_is_along(collision: Collision, body: TreeLink, pose: Pose) -> bool | 
     return True if cosine >= _ALONG else False if cosine <= _ACROSS else None
 
 
-def slipping(slips: Mapping[str, Slip], tyres: Collection[str]) -> dict[str, Slip]:
-    """Return all tyres of a world with their slips: none where only the run may set one."""
-    return {name: slips.get(name, (0.0, 0.0)) for name in sorted({*slips, *tyres})}
+def slipping(slips: Mapping[str, Slip], slip_links: Collection[str]) -> dict[str, Slip]:
+    """Return all slip bodies of a world with their slips: none where only the run may set one."""
+    return {name: slips.get(name, (0.0, 0.0)) for name in sorted({*slips, *slip_links})}

@@ -36,7 +36,7 @@ def install(*, vital: bool) -> None:
             )
         warnings.warn(
             EngineWarning(
-                f"{what}: what slides hops, what spins gains energy, and what overlaps is thrown out"
+                f"{what}: sliding bodies may hop, spinning bodies gain energy, and overlapping bodies are pushed out fast"
             ),
             stacklevel=2,
         )

@@ -36,7 +36,7 @@ from cython.cimports.gazelle.engines.mujoco.contact_laws.wheel_contacts import s
 from cython.cimports.gazelle.native.memory import floats, integers, word
 from cython.cimports.libc.math import isfinite, sqrt
 
-# An impact that gravity makes in so many steps is no bounce but rest.
+# An impact velocity that gravity builds up within this number of steps does not bounce.
 _STEPS_TO_REST = cython.declare(cython.double, 2.0)
 
 # MuJoCo's share of a bouncing contact's force.

@@ -56,22 +56,22 @@ class LawSelection:
 
     Attributes:
         bounces: Whether some contacts bounce.
-        rubs: Geoms that rub by direction, by name.
+        directional_friction: Directional friction of geoms, by name.
         tumbling: Names of free bodies that tumble freely.
         motors: Number of motors that hold a velocity.
-        slides: Whether something that moves rubs.
-        treads: Joints of wheels by what may be their treads, a geom.
+        slides: Whether a moving geom has friction.
+        wheel_geoms: Wheel joints by the names of geoms that may be wheel surfaces.
         exits: Velocities at which geoms leave overlaps, by name [m/s].
         swings: Whether joints get their bias forces at the middle of a step.
         hooks: Address of what takes commands within steps; 0 for none.
     """
 
     bounces: bool = False
-    rubs: Mapping[str, DirectionalFriction] = field(default_factory=dict)
+    directional_friction: Mapping[str, DirectionalFriction] = field(default_factory=dict)
     tumbling: Sequence[str] = ()
     motors: int = 0
     slides: bool = False
-    treads: Mapping[str, str] = field(default_factory=dict)
+    wheel_geoms: Mapping[str, str] = field(default_factory=dict)
     exits: Mapping[str, float] = field(default_factory=dict)
     swings: bool = False
     hooks: int = 0
@@ -89,7 +89,7 @@ class LawSelection:
     @property
     def vital(self) -> bool:
         """True if one is needed without which the world would move quite differently."""
-        return bool(self.bounces or self.rubs or self.motors or self.hooks)
+        return bool(self.bounces or self.directional_friction or self.motors or self.hooks)
 
 
 def prepare(spec: mujoco.MjSpec, extras: LawSelection) -> None:
@@ -100,7 +100,7 @@ def prepare(spec: mujoco.MjSpec, extras: LawSelection) -> None:
     if extras.swings:
         size += BIAS_HEAD + 3 * len(spec.joints)
     spec.add_numeric(name=_NAME, data=[0.0] * size, size=size)
-    if extras.rubs or extras.touches:
+    if extras.directional_friction or extras.touches:
         spec.nuser_geom = GEOM_NUMBERS
 
 
@@ -122,7 +122,7 @@ def finish(model: mujoco.MjModel, extras: LawSelection) -> None:
 
     # The first of the custom numbers: nothing else here adds any.
     numbers = model.numeric_data
-    treads = _write_treads(model, extras.treads)
+    wheel_geoms = _write_wheel_geoms(model, extras.wheel_geoms)
     hinges, spins = unbalanced_dofs(model) if extras.swings else ([], [])
     swinging = hinges + spins
     numbers[:HEAD] = (
@@ -130,8 +130,8 @@ def finish(model: mujoco.MjModel, extras: LawSelection) -> None:
         mujoco.mj_isSparse(model),
         len(extras.tumbling),
         extras.motors,
-        bool(extras.rubs),
-        treads,
+        bool(extras.directional_friction),
+        wheel_geoms,
         extras.touches,
         len(swinging),
         spun.ctypes.data,
@@ -146,7 +146,7 @@ def finish(model: mujoco.MjModel, extras: LawSelection) -> None:
     for place, name in enumerate(extras.tumbling):
         body = model.body(name)
         numbers[HEAD + 2 * place :][:2] = body.id, body.dofadr[0]
-    for name, rub in extras.rubs.items():
+    for name, rub in extras.directional_friction.items():
         geom = model.geom(name).id
         along = np.zeros(3) if rub.along is None else np.array(rub.along)
         w, x, y, z = model.geom_quat[geom]
@@ -160,10 +160,10 @@ def finish(model: mujoco.MjModel, extras: LawSelection) -> None:
     install(vital=extras.vital)
 
 
-def _write_treads(model: mujoco.MjModel, treads: Mapping[str, str]) -> bool:
+def _write_wheel_geoms(model: mujoco.MjModel, wheel_geoms: Mapping[str, str]) -> bool:
     """Mark the geoms that are wheel surfaces; returns whether there are any."""
     found = False
-    for name, on in treads.items():
+    for name, on in wheel_geoms.items():
         geom, joint = model.geom(name).id, model.joint(on).id
         middle = middle_of(model, geom, joint)
         if middle is not None:

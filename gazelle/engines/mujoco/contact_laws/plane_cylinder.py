@@ -15,7 +15,7 @@ So such a wheel has the contact of its lower edge only.
 
 import cython
 from cython.cimports.gazelle.engines.mujoco.contact_laws.struct_offsets import AT
-from cython.cimports.gazelle.engines.mujoco.contact_laws.wheel_contacts import is_level_tread
+from cython.cimports.gazelle.engines.mujoco.contact_laws.wheel_contacts import is_upright_wheel
 from cython.cimports.gazelle.native.memory import floats, word
 from cython.cimports.libc.math import sqrt
 
@@ -79,7 +79,7 @@ def plane_cylinder(
         return 0
     count = 1
     _write(found, 0, near + low, centre, down, 1.0, rim, 1.0, side, normal)
-    if is_level_tread(model, cylinder, lean, size[1]):
+    if is_upright_wheel(model, cylinder, lean, size[1]):
         return 1
     if far + low <= margin:
         _write(found, 1, far + low, centre, down, -1.0, rim, 1.0, side, normal)

@@ -1,6 +1,6 @@
 """Softer friction constraints for rolling contacts.
 
-Friction is stiff, so that what is held does not creep (``surfaces.hold_fast``). Two wheels on an
+Friction is stiff, so that what is held does not creep (``surfaces.stiffen_friction``). Two wheels on an
 axle that turn as their robot's do hold it aside at two points of one rigid body, though, and by
 velocities that differ in the seventh digit. Friction that stiff makes such differences into
 forces as large as friction may have, and the solver searches for where it gives way. What rolls

@@ -45,7 +45,7 @@ _LEVEL = cython.declare(cython.double, 1e-12)
 # only the weight presses.
 _CREEP = cython.declare(cython.double, 0.25)
 
-# What friction stops in so many steps, when only the weight presses, slides slowly. One is the
+# What friction stops in this number of steps, when only the weight presses, slides slowly. One is the
 # least at which a point keeps its direction on a pyramid's edge, 1.5 at which a box does.
 _STEPS_TO_STOP = cython.declare(cython.double, 2.0)
 
@@ -204,7 +204,7 @@ def _share(
 @cython.nogil
 @cython.exceptval(check=False)
 def _is_alike(touch: cython.pointer[Touch]) -> cython.bint:
-    """Return whether all that holds the bodies of a contact rubs as it does, in all directions."""
+    """Return whether all contacts of both bodies have the same, isotropic friction."""
     if touch.friction[0] != touch.friction[1] or min(touch.geoms[0], touch.geoms[1]) < 0:
         return False
     if floats(touch.contact + AT.contact_margin)[0] < 0.0:

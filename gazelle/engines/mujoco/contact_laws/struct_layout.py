@@ -122,7 +122,7 @@ def offsets() -> Offsets:
     """Return the offsets in the running MuJoCo.
 
     Raises:
-        EngineError: MuJoCo is not laid out as it says.
+        EngineError: MuJoCo has an unexpected memory layout.
     """
     model, data, contact = (_struct(f"mj{name}") for name in ("Model", "Data", "Contact"))
     option = _struct("mjOption")
@@ -300,6 +300,6 @@ def _verify(found: Offsets) -> None:
     counted = count == data.ncon == 1 and islands == data.nisland == 1
     if not (right and step == model.opt.timestep and counted):
         raise EngineError(
-            f"MuJoCo {mujoco.__version__} is not laid out as it says",
+            f"MuJoCo {mujoco.__version__} has an unexpected memory layout",
             hint="motors, bounces, turning friction and tumbling bodies need a release from PyPI",
         )

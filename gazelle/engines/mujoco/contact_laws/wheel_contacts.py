@@ -1,4 +1,4 @@
-"""A wheel stands on the middle of its tread, whatever edge it touches with.
+"""Wheel contacts at the middle of the tread instead of at its edges.
 
 Rigid wheels touch a floor with their edges: by rounding (an axle turned by 1.57 instead of a
 quarter) with one of them, by softness with both. Which it is decides where the ground bears and
@@ -25,7 +25,7 @@ from cython.cimports.gazelle.engines.mujoco.contact_laws.law_data_indices import
 from cython.cimports.gazelle.engines.mujoco.contact_laws.struct_offsets import AT
 from cython.cimports.gazelle.native.memory import floats, integers, word
 
-# Sine of the angle from level at which an axle is no wheel's any more.
+# Sine of the angle from level at which an axle is not a wheel's any more.
 _STEEP = cython.declare(cython.double, 0.34)
 
 _NEAR = cython.declare(cython.double, 1e-9)  # [m]
@@ -69,10 +69,10 @@ def stand_in_the_middle(touch: cython.pointer[Touch]) -> cython.void:
 @cython.cfunc
 @cython.nogil
 @cython.exceptval(check=False)
-def is_level_tread(
+def is_upright_wheel(
     model: cython.size_t, geom: cython.int, lean: cython.double, half: cython.double
 ) -> cython.bint:
-    """Return whether a cylinder is a wheel's tread that stands on its middle rather than an edge.
+    """Return whether a cylinder is an upright wheel, which contacts the ground at its middle.
 
     Args:
         model: Address of the ``mjModel``.

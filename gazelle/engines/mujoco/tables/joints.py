@@ -52,7 +52,7 @@ class MujocoJointRow:
 
     def effort(self, worlds: Worlds | None = None) -> Floats:
         """Return the effort that ``set_effort`` applies [N or N m], shape (n, axes)."""
-        slots = self._run.now().joint(self._name)
+        slots = self._run.up_to_date().joint(self._name)
         return _read(self._run.state.qfrc_applied, [s.velocity for s in slots], worlds)
 
     def wrench(self, worlds: Worlds | None = None) -> Wrench:
@@ -62,7 +62,7 @@ class MujocoJointRow:
     def set_position(self, position: ArrayLike, worlds: Worlds | None = None) -> None:
         """Set the position [m or rad], shape (axes,) or (n, axes), to its limits at most."""
         self._run.placed = True
-        slots = self._run.now().joint(self._name)
+        slots = self._run.up_to_date().joint(self._name)
         positions = joint_to_mujoco(np.atleast_1d(np.asarray(position, np.float64)))
         if len(slots) > 1 or slots[0].position.stop - slots[0].position.start == 1:
             lower, upper = (
@@ -73,19 +73,19 @@ class MujocoJointRow:
 
     def set_velocity(self, velocity: ArrayLike, worlds: Worlds | None = None) -> None:
         """Set the velocity [m/s or rad/s], shape (axes,) or (n, axes)."""
-        slots = self._run.now().joint(self._name)
+        slots = self._run.up_to_date().joint(self._name)
         self._write(self._run.state.qvel, [s.velocity for s in slots], velocity, worlds)
 
     def set_effort(self, effort: ArrayLike, worlds: Worlds | None = None) -> None:
         """Apply an effort until another is set [N or N m], shape (axes,) or (n, axes)."""
-        slots = self._run.now().joint(self._name)
+        slots = self._run.up_to_date().joint(self._name)
         efforts = np.atleast_1d(np.asarray(effort, np.float64))
         within = self._run.layout.limits.clamp(self._name, efforts)
         self._write(self._run.state.qfrc_applied, [s.velocity for s in slots], within, worlds)
 
     def set_motor_velocity(self, velocity: ArrayLike, worlds: Worlds | None = None) -> None:
         """Set the velocity that the joint's motor holds [m/s or rad/s]."""
-        columns = self._run.now().motor(self._name).targets
+        columns = self._run.up_to_date().motor(self._name).targets
         velocities = np.asarray(velocity, np.float64)
         if columns.stop - columns.start == 1 and velocities.ndim == 1:
             velocities = velocities[:, None]
@@ -159,7 +159,7 @@ class MujocoJointRows:
 
     def place(self, position: Floats, velocity: Floats, chosen: Bools) -> None:
         """Set positions and velocities of joints with one axis, to their limits at most."""
-        columns = self._columns.within(self._run.now())
+        columns = self._columns.within(self._run.up_to_date())
         within = np.clip(position, *self._bounds())
         qpos, qvel = self._run.state.qpos, self._run.state.qvel
         if chosen.all():
@@ -192,7 +192,7 @@ class MujocoJointRows:
         recipe = self._run.latest
         if in_step and not recipe.hooks:
             self._run.change(replace(recipe, hooks=self._run.hooks.address))
-        layout = self._run.now()
+        layout = self._run.up_to_date()
         columns = self._columns.within(layout)
         largest = [layout.limits.effort.get(name, (np.inf,))[0] for name in self._names]
         driven = self._run.recipe.motors
@@ -221,7 +221,7 @@ class MujocoJointRows:
 
     def motor_targets(self) -> tuple[Floats, Indices]:
         """Return the velocities that motors hold, to be written, and the joints' columns."""
-        columns = self._motors.within(self._run.now())
+        columns = self._motors.within(self._run.up_to_date())
         return self._run.motor_targets, columns
 
     def _find_motors(self, layout: MujocoLayout) -> Indices:

@@ -109,10 +109,10 @@ class MujocoLinkRow(MujocoLinkRows):
         self, position: ArrayLike, quaternion: ArrayLike, worlds: Worlds | None = None
     ) -> str:
         """Move the link, or its joint as far as that allows."""
-        slot = self._run.now().link(self._name)
+        slot = self._run.up_to_date().link(self._name)
         if slot.root == "static":
             self._make_kinematic(self._name.partition("::")[0])
-            slot = self._run.now().link(self._name)
+            slot = self._run.up_to_date().link(self._name)
         here = self.placement(worlds)
         goal_p = np.broadcast_to(np.asarray(position, np.float64), here.position.shape)
         goal_q = unit(np.broadcast_to(np.asarray(quaternion, np.float64), here.quaternion.shape))
@@ -132,7 +132,7 @@ class MujocoLinkRow(MujocoLinkRows):
         self, linear: ArrayLike, angular: ArrayLike, worlds: Worlds | None = None
     ) -> None:
         """Set the velocity of the link, or the speed of its joint that suits it."""
-        slot = self._run.now().link(self._name)
+        slot = self._run.up_to_date().link(self._name)
         motion = self.motion(worlds)
         speed = np.broadcast_to(np.asarray(linear, np.float64), motion.linear.shape)
         spin = np.broadcast_to(np.asarray(angular, np.float64), motion.angular.shape)
@@ -142,9 +142,7 @@ class MujocoLinkRow(MujocoLinkRows):
         if carrier.free is None:
             if not (speed.any() or spin.any()):
                 return
-            raise EngineError(
-                f"link '{self._name}' moves only when it is placed; it has no velocity"
-            )
+            raise EngineError(f"link '{self._name}' is kinematic and has no velocity")
         here, row = self.placement(worlds), self._link(slot.carrier)
         root, motion = row.placement(worlds), row.motion(worlds)
         more_spin, more = spin - motion.angular, speed - motion.linear
@@ -161,15 +159,15 @@ class MujocoLinkRow(MujocoLinkRows):
         if carrier.free is None and carrier.mocap is None:
             raise EngineError(
                 f"link '{self._name}' is fixed to the world and cannot be moved",
-                hint="only links that hang on a joint that moves can, or of free models",
+                hint="only links on movable joints and links of free models can be moved",
             )
         return carrier
 
     def set_wrench(self, force: ArrayLike, torque: ArrayLike, worlds: Worlds | None = None) -> None:
         """Apply a wrench at the centre of mass until another is set, in the world frame."""
-        slot = self._run.now().link(self._name)
+        slot = self._run.up_to_date().link(self._name)
         if slot.body == 0 or slot.mocap is not None:
-            raise EngineError(f"link '{self._name}' does not move; nothing can push it")
+            raise EngineError(f"link '{self._name}' is static; no force can act on it")
         rows = rows_of(worlds)
         self._run.state.xfrc_applied[rows, slot.body, :3] = force
         self._run.state.xfrc_applied[rows, slot.body, 3:] = torque

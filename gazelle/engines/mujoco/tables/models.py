@@ -75,7 +75,7 @@ class MujocoModelRow:
         self, position: ArrayLike, quaternion: ArrayLike, worlds: Worlds | None = None
     ) -> None:
         """Move the model rigidly, joints as they are; a static model becomes kinematic for it."""
-        slot = self._run.now().model(self._name)
+        slot = self._run.up_to_date().model(self._name)
         if not slot.free:
             slot = self._freed(slot)
         goal_p, goal_q = np.asarray(position, np.float64), np.asarray(quaternion, np.float64)
@@ -93,12 +93,12 @@ class MujocoModelRow:
         """
         if any(self._run.layout.link(root).root == "static" for root in slot.roots):
             self._make_kinematic(self._name)
-            slot = self._run.now().model(self._name)
+            slot = self._run.up_to_date().model(self._name)
         fixed = [root for root in slot.roots if self._run.layout.link(root).root is None]
         if fixed:
             raise EngineError(
                 f"model '{self._name}' is fixed to the world by a joint and cannot be moved",
-                hint=f"the joint that holds '{fixed[0]}' would have to go",
+                hint=f"remove the joint that holds '{fixed[0]}'",
             )
         return slot
 
@@ -126,7 +126,7 @@ class MujocoModelRow:
 
     def path(self, path: ModelPath) -> System | None:
         """Return what moves the model along a path; None where it has several root links."""
-        slot = self._run.now().model(self._name)
+        slot = self._run.up_to_date().model(self._name)
         mocap = self._run.layout.link(slot.roots[0]).mocap
         if len(slot.roots) > 1 or mocap is None:
             return None
@@ -144,7 +144,7 @@ class MujocoModelRow:
         self, linear: ArrayLike, angular: ArrayLike, worlds: Worlds | None = None
     ) -> None:
         """Set the velocity of all links of the model to that of one rigid body, joints at rest."""
-        slot = self._run.now().model(self._name)
+        slot = self._run.up_to_date().model(self._name)
         rows = rows_of(worlds)
         origin = self.placement(worlds)
         v = np.broadcast_to(np.asarray(linear, np.float64), origin.position.shape)
@@ -288,7 +288,7 @@ class MujocoModelRows:
 
     def set_ground_motion(self, twist: ArrayLike, worlds: Worlds | None = None) -> None:
         """Set level velocities of the models along and across their headings, joints at rest."""
-        roots = self._roots.within(self._run.now())
+        roots = self._roots.within(self._run.up_to_date())
         origin = self.placement(worlds)
         twists = np.broadcast_to(np.asarray(twist, np.float64), origin.position.shape)
         heading = from_yaw(yaw_of(origin.quaternion))
@@ -308,7 +308,7 @@ class MujocoModelRows:
 
     def twist(self, linear: Floats, angular: Floats) -> System | None:
         """Return what gives the models their velocities; None unless each has one free root link."""
-        layout, state = self._run.now(), self._run.state
+        layout, state = self._run.up_to_date(), self._run.state
         slots = [layout.model(name) for name in self._names]
         free = [layout.link(slot.canonical).free for slot in slots]
         places = [(each.position.start, each.velocity.start) for each in free if each is not None]

@@ -14,7 +14,7 @@ from gazelle.array_types import Floats, Worlds
 from gazelle.engines.mujoco.batch import WorldBatch
 from gazelle.engines.mujoco.contact_laws.law_data import spun
 from gazelle.engines.mujoco.warp.device_worlds import WRITTEN, DeviceWorlds
-from gazelle.native.ray_frames import CarriedRays
+from gazelle.native.ray_frames import FrameRays
 
 _BAD_ACCELERATION = mujoco.mjtWarning.mjWARN_BADQACC
 _LARGEST = 1e10  # as MuJoCo judges what is broken
@@ -68,7 +68,7 @@ class WarpBatch(WorldBatch):
         if stage:
             self.forward(ids, stage=stage)
 
-    def meet(self, rays: CarriedRays, groups: NDArray[np.uint8], worlds: Worlds | None) -> None:
+    def meet(self, rays: FrameRays, groups: NDArray[np.uint8], worlds: Worlds | None) -> None:
         """Find what rays meet, on the device; see MuJoCo's."""
         self._share()
         start, along = np.zeros((2, self.nsim, *rays.start.shape[1:]))

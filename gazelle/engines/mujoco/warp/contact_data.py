@@ -49,8 +49,8 @@ class ContactLaws:
     it moves with rubs alike.
     """
 
-    rubs: int
-    treads: int
+    directional_friction: int
+    wheel_geoms: int
     touches: int
     cone: int
     disabled: int

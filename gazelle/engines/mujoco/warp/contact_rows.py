@@ -18,7 +18,7 @@ from gazelle.engines.mujoco.warp.sliding_friction import stay_down
 
 wp.set_module_options({"enable_backward": False})
 
-# As in ``contact_laws.wheel_contacts``: the sine from level at which an axle is no wheel's, what is near, and by how
+# As in ``contact_laws.wheel_contacts``: the sine from level at which an axle is not a wheel's, what is near, and by how
 # much a tread gives way at an edge [m].
 STEEP = wp.constant(0.34)
 NEAR = wp.constant(1.0e-7)
@@ -44,9 +44,9 @@ def correct_contacts(rows: ConstraintRows, found: ContactList, laws: ContactLaws
     geoms = found.geom[contact]
     if geoms[0] < 0 or geoms[1] < 0:
         return
-    if laws.rubs != 0:
+    if laws.directional_friction != 0:
         _direct(rows, found, laws, contact)
-    if laws.treads != 0:
+    if laws.wheel_geoms != 0:
         _stand_in_the_middle(rows, found, laws, contact)
     if laws.touches != 0:
         _leave_slowly(rows, found, laws, contact)

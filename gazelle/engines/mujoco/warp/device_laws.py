@@ -72,7 +72,9 @@ class DeviceLaws:
 
     def _contact_laws(self, head: Any, model: Any) -> Any:
         host, laws = self._host, ContactLaws()
-        laws.rubs, laws.treads, laws.touches = (int(bool(head[each])) for each in (4, 5, 6))
+        laws.directional_friction, laws.wheel_geoms, laws.touches = (
+            int(bool(head[each])) for each in (4, 5, 6)
+        )
         laws.cone = int(host.opt.cone == mujoco.mjtCone.mjCONE_ELLIPTIC)
         laws.disabled = int(host.opt.disableflags)
         users = np.zeros((host.ngeom, GEOM_NUMBERS))

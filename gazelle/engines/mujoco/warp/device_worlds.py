@@ -149,7 +149,7 @@ class DeviceWorlds:
         if max(self._rows, self._contacts) > _MOST_ROWS:
             raise EngineError(
                 f"a world has more than {_MOST_ROWS} rows of constraints",
-                hint="something is inside something else with a thousand points of contact",
+                hint="some bodies may overlap with a thousand contact points",
             )
         self._make_data()
         return True

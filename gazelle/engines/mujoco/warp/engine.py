@@ -59,7 +59,7 @@ class WarpEngine(MujocoEngine):
             raise EngineError(
                 f"there is no '{kind}' of joints on the device", hint=did_you_mean(kind, _ON_DEVICE)
             )
-        slots = self.running.now().joint(joint)
+        slots = self.running.up_to_date().joint(joint)
         columns = [slot.position if kind == "position" else slot.velocity for slot in slots]
         whole = self.running.batch.on_device(_ON_DEVICE[kind])
         return whole[:, columns[0].start : columns[-1].stop]
@@ -106,14 +106,13 @@ def _miss_foresight(world: World) -> None:
     """
     if world.profile.speculative_contacts:
         raise EngineError(
-            "the engine 'mujoco-warp' seeks no contacts on the way of a step "
-            "('speculative_contacts')",
+            "the engine 'mujoco-warp' does not support 'speculative_contacts'",
             hint="gazelle.Simulation(..., engine='mujoco') does",
         )
     warnings.warn(
         EngineWarning(
-            "the engine 'mujoco-warp' seeks no contacts on the way of a step: a small body that is "
-            "faster than 20 m/s may pass through something. Take a smaller step, or engine='mujoco'"
+            "the engine 'mujoco-warp' computes no speculative contacts: a small body that is "
+            "faster than 20 m/s may tunnel through others. Use a smaller step, or engine='mujoco'"
         ),
         stacklevel=5,
     )

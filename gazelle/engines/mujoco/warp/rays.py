@@ -12,7 +12,7 @@ from gazelle.engines.mujoco.worlds import RunningWorlds
 from gazelle.engines.range_rays import RangeRays
 from gazelle.engines.state import LinkRow, LinkRows
 from gazelle.engines.table import Table
-from gazelle.native.ray_frames import CarriedRays
+from gazelle.native.ray_frames import FrameRays
 from gazelle.native.system import System
 
 
@@ -34,7 +34,7 @@ class WarpRanges:
     ) -> None:
         self._run, self._links = run, links[tuple(each.link for each in rays)]
         self._rays = joined(rays)
-        self._all: CarriedRays | None = None
+        self._all: FrameRays | None = None
 
     def cast(self, worlds: Worlds | None = None) -> Floats:
         """Return distances now [m], shape (n, finders, rays); the next call may overwrite them."""
@@ -44,10 +44,10 @@ class WarpRanges:
         meet(self._run, rays, worlds, signed=True)
         return rays.distance.reshape(-1, *self._rays[0].shape[:2])
 
-    def _rays_in(self, worlds: Worlds | None) -> CarriedRays:
+    def _rays_in(self, worlds: Worlds | None) -> FrameRays:
         """Return the rays for some worlds; those of all are kept."""
         if worlds is not None:
-            return CarriedRays(*self._rays, len(worlds))
+            return FrameRays(*self._rays, len(worlds))
         if self._all is None:
-            self._all = CarriedRays(*self._rays, self._run.nworld)
+            self._all = FrameRays(*self._rays, self._run.nworld)
         return self._all

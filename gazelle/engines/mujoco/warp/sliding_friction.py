@@ -96,7 +96,7 @@ def _on_a_pyramid(
 
 @wp.func
 def _is_alike(found: ContactList, laws: ContactLaws, contact: int) -> int:
-    """Return whether all that holds the bodies of a contact rubs as it does, in all directions."""
+    """Return whether all contacts of both bodies have the same, isotropic friction."""
     friction = found.friction[contact]
     geoms = found.geom[contact]
     if friction[0] != friction[1] or found.margin[contact] < 0.0 or wp.min(geoms[0], geoms[1]) < 0:

@@ -88,7 +88,7 @@ class PlanarModelRow:
         if each.tree.held:
             raise EngineError(
                 f"model '{self._name}' is fixed to the world by a joint and cannot be moved",
-                hint="the joint that holds it would have to go",
+                hint="remove the joint that holds it",
             )
         if each.still:
             self._make_kinematic(self._name)

@@ -18,7 +18,7 @@ def write_joint(joint: Joint, writing: Writing) -> Parameters:
     """Write a joint."""
     if joint.type in _NOT_SDF:
         writing.note(
-            f"SDF has no '{joint.type}' joint: for other programs '{joint.name}' is not there",
+            f"SDF has no '{joint.type}' joint: other programs ignore '{joint.name}'",
             joint.source,
         )
     note_armature(joint, writing)

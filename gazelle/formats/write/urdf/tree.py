@@ -59,7 +59,7 @@ def tree_of(model: Model, writing: Writing) -> WrittenTree:
     moved = [name for name, shift in tree.shifts.items() if shift != Pose()]
     if moved:
         writing.note(
-            f"URDF has a link's frame at its joint, to where those of {_listed(moved)} moved",
+            f"URDF has the frame of a link at its joint: moved the frames of {_listed(moved)}",
             model.source,
         )
     return tree
@@ -71,7 +71,7 @@ def _holding(model: Model, links: Mapping[str, Link]) -> tuple[dict[str, Joint],
         for name in (joint.parent, joint.child):
             if name not in links and name != WORLD:
                 raise FormatError(
-                    f"the joint '{joint.name}' holds '{name}', which is no link of this model",
+                    f"the joint '{joint.name}' holds '{name}', which is not a link of this model",
                     source=joint.source,
                 )
     graph = JointGraph(joint for joint in model.joints if joint.type in _TYPES)
@@ -111,7 +111,7 @@ def _refuse_circles(tree: WrittenTree) -> None:
         joint = graph.ring(name)
         if joint is not None:
             raise FormatError(
-                f"the joints lead in a circle through '{joint.name}'", source=joint.source
+                f"the joints form a cycle through '{joint.name}'", source=joint.source
             )
 
 

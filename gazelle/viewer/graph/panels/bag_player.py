@@ -43,7 +43,7 @@ class BagPlayerPanel(GraphPanel):
         self._loop: Any = gui.add_checkbox("Loop", initial_value=False)
         self._clock: Any = gui.add_checkbox("Publish /clock", initial_value=False)
         buttons = gui.add_button_group("Play", ("Play", "Pause", "Step", "Stop"))
-        buttons.on_click(lambda event: context.careful(lambda: self._press(event.target.value)))
+        buttons.on_click(lambda event: context.guarded(lambda: self._press(event.target.value)))
         self._progress: Any = gui.add_progress_bar(0.0)
         self._text: Any = gui.add_markdown("")
         self._topics: Any = gui.add_html("")
@@ -57,7 +57,7 @@ class BagPlayerPanel(GraphPanel):
     def use(self, arguments: Sequence[str]) -> None:
         """Open the bag of a command line."""
         self._file.value = next((word for word in arguments if not word.startswith("-")), "")
-        self.context.careful(self._list)
+        self.context.guarded(self._list)
 
     def refresh(self) -> None:
         """Show how far it is."""
@@ -71,7 +71,7 @@ class BagPlayerPanel(GraphPanel):
         self._progress.value = share if playing else 0.0
 
     def pause(self) -> None:
-        """Stop playing: nobody looks."""
+        """Stop playing: no page is open."""
         self._end()
 
     def close(self) -> None:

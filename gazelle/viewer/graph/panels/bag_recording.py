@@ -14,7 +14,7 @@ from gazelle_ros.bags.recording import BagRecorder, RecordOptions
 class BagRecording:
     """Controls that record chosen topics, or all, as ``rosbag record``.
 
-    A recording goes on while nobody looks, and ends with the panel.
+    A recording goes on while no page is open, and ends with the panel.
 
     Args:
         context: Of the page.
@@ -36,7 +36,7 @@ class BagRecording:
             buttons = gui.add_button_group("Bag", ("Record", "End"))
             self._text: Any = gui.add_markdown("")
         self.inputs: dict[str, Any] = {"topics": topics, "recorded": file}
-        buttons.on_click(lambda event: context.careful(lambda: self._press(event.target.value)))
+        buttons.on_click(lambda event: context.guarded(lambda: self._press(event.target.value)))
 
     def refresh(self) -> None:
         """Show for how long it records, or where the bag is."""

@@ -27,7 +27,7 @@ class ControllersPanel(GraphPanel):
         self._table: Any = gui.add_html("")
         self._chosen: Any = gui.add_dropdown("Controller", (_NONE,))
         buttons = gui.add_button_group("Change", ("Start", "Stop", "Load", "Unload"))
-        buttons.on_click(lambda event: context.careful(lambda: self._change(event.target.value)))
+        buttons.on_click(lambda event: context.guarded(lambda: self._change(event.target.value)))
         self.inputs = {}
 
     def refresh(self) -> None:

@@ -150,7 +150,7 @@ class ImageViewPanel(GraphPanel):
             each.show()
 
     def pause(self) -> None:
-        """Unsubscribe until somebody looks."""
+        """Unsubscribe until a page is open."""
         for each in self.views:
             each.leave()
 

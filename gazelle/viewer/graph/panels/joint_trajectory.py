@@ -71,7 +71,7 @@ class JointTrajectoryPanel(GraphPanel):
             self._sent = self._wanted()
 
     def pause(self) -> None:
-        """Send nothing while nobody looks."""
+        """Send nothing while no page is open."""
         self._send.value = False
 
     def close(self) -> None:

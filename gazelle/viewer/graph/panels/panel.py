@@ -41,7 +41,7 @@ class GraphPanel(ABC):
         """Show what is new; called within the panel's place on the page."""
 
     def pause(self) -> None:  # noqa: B027  most panels need none
-        """Leave the graph alone while nobody looks."""
+        """Leave the graph alone while no page is open."""
 
     def close(self) -> None:  # noqa: B027  most panels need none
         """Leave the graph."""

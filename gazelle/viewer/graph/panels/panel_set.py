@@ -104,7 +104,7 @@ class PanelSet:
                 self._refresh(title, each)
 
     def pause(self) -> None:
-        """Leave the graph alone while nobody looks."""
+        """Leave the graph alone while no page is open."""
         for each in self._open.values():
             each.panel.pause()
 

@@ -42,7 +42,7 @@ class _PlottedField:
             self.error = str(error)
             return
         numbers = dict(numbers_of(to_dict(value), 1, 0))
-        self.error = "" if numbers else f"{self.text} is no number"
+        self.error = "" if numbers else f"{self.text} is not a number"
         with self._lock:
             self._rows.append((time.monotonic(), numbers))
 

@@ -74,7 +74,7 @@ class PublisherPanel(GraphPanel):
         self._publisher.publish(sent)
 
     def pause(self) -> None:
-        """Publish nothing while nobody looks."""
+        """Publish nothing while no page is open."""
         self._repeat.value = False
 
     def close(self) -> None:

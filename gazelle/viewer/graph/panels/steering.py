@@ -55,7 +55,7 @@ class SteeringPanel(GraphPanel):
         self._moving = moving
 
     def pause(self) -> None:
-        """Stop the robot: nobody looks where it drives."""
+        """Stop the robot: no page is open."""
         self._stop()
         self.refresh()
 

@@ -83,7 +83,7 @@ class ServerGoalHandle:
         return self._move("an active", "pending or recalling", table, text)
 
     def set_canceled(self, result: Message | None = None, text: str = "") -> bool:
-        """Report that it was cancelled on request; False if it cannot be."""
+        """Report that it was cancelled on request; False if it is invalid."""
         table = {
             GoalStatus.PENDING: GoalStatus.RECALLED,
             GoalStatus.RECALLING: GoalStatus.RECALLED,

@@ -64,7 +64,7 @@ class SimpleActionServer:
         self._terminate = False
         self.execute_thread: threading.Thread | None = None
         self.action_server = ActionServer(
-            node, name, spec, self._goal_came, self._cancel_came, auto_start=False
+            node, name, spec, self._on_goal, self._on_cancel, auto_start=False
         )
         if execute_cb is not None:
             self.execute_thread = threading.Thread(
@@ -160,7 +160,7 @@ class SimpleActionServer:
 
     # What comes in -----------------------------------------------------------------------------
 
-    def _goal_came(self, goal: ServerGoalHandle) -> None:
+    def _on_goal(self, goal: ServerGoalHandle) -> None:
         with self._news:
             newest = [g.get_goal_id().stamp for g in (self.current_goal, self.next_goal) if g]
             if any(goal.get_goal_id().stamp < stamp for stamp in newest):
@@ -179,7 +179,7 @@ class SimpleActionServer:
         if self.goal_callback is not None:
             self.goal_callback()
 
-    def _cancel_came(self, goal: ServerGoalHandle) -> None:
+    def _on_cancel(self, goal: ServerGoalHandle) -> None:
         with self.lock:
             if goal is self.current_goal:
                 self.preempt_request = True

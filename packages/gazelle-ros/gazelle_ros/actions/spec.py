@@ -112,7 +112,7 @@ def wait(
         Whether it came true.
 
     Raises:
-        RosError: The timeout is no number.
+        RosError: The timeout is not a number.
     """
     seconds = timeout.to_sec() if isinstance(timeout, Duration) else timeout or 0.0
     limit = min(seconds, LONGEST_WAIT) * SECOND

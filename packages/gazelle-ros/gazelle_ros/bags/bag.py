@@ -63,7 +63,7 @@ class Bag(Closeable):
         skip_index: Has no effect: indices are read when they are needed.
 
     Raises:
-        BagError: It is no bag, or damaged.
+        BagError: It is not a bag, or damaged.
         BagUnindexedError: It has no index.
         ValueError: An argument is not valid.
         OSError: The file cannot be opened.

@@ -21,7 +21,7 @@ def check(kind: str) -> str:
         MissingExtraError: It needs a package that is not installed.
     """
     if kind not in KINDS:
-        raise BagError(f"'{kind}' is no compression", hint=did_you_mean(kind, KINDS))
+        raise BagError(f"'{kind}' is not a compression", hint=did_you_mean(kind, KINDS))
     if kind == LZ4:
         _lz4()
     return kind

@@ -11,7 +11,7 @@ class BagError(RosError):
 
 
 class BagFormatError(BagError):
-    """A file is no bag, or a damaged one."""
+    """A file is not a bag, or a damaged one."""
 
 
 class BagUnindexedError(BagError):

@@ -25,7 +25,7 @@ def write_mcap(source: str, target: str) -> int:
         How many messages it has.
 
     Raises:
-        BagError: The source is no bag, or the target is there already or cannot be written.
+        BagError: The source is not a bag, or the target is there already or cannot be written.
         MissingExtraError: The package ``mcap`` is not installed.
     """
     try:

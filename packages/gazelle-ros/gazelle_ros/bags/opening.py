@@ -53,7 +53,7 @@ def ensure_index(path: Path) -> None:
     """Repair a bag without an index; unreadable parts are cut off.
 
     Raises:
-        BagError: It is no bag.
+        BagError: It is not a bag.
     """
     try:
         BagReader(path).close()

@@ -28,7 +28,7 @@ def keep_of(expression: str) -> Keep:
     """Compile a function of ``topic``, ``m`` and ``t`` from a Python expression.
 
     Raises:
-        BagError: It is no expression; and by the function where it fails.
+        BagError: It is not an expression; and by the function where it fails.
     """
     value = compiled(expression, BagError)
 
@@ -53,7 +53,7 @@ def filter_bag(
         How many messages were kept, and how many there were.
 
     Raises:
-        BagError: The source is no bag, or is the target too.
+        BagError: The source is not a bag, or is the target too.
     """
     if Path(source).resolve() == Path(target).resolve():
         raise BagError("a bag cannot be filtered into itself", file=source)
@@ -102,7 +102,7 @@ def recompress(path: str, compression: str, *, folder: str = "", force: bool = F
         Where the old bag is now.
 
     Raises:
-        BagError: It is no bag, or there is an old one already.
+        BagError: It is not a bag, or there is an old one already.
     """
     reader = BagReader(path)
     try:
@@ -118,7 +118,7 @@ def reindex(path: str, *, folder: str = "", force: bool = False) -> tuple[Path, 
         Where the old bag is now, and what was found in it.
 
     Raises:
-        BagError: It is no bag, or there is an old one already.
+        BagError: It is not a bag, or there is an old one already.
     """
     reader = BagReader(path, allow_unindexed=True)
     try:
@@ -167,7 +167,7 @@ def fix_bag(source: str, target: str, *, force: bool = False) -> list[str]:
         What differs; see `check`.
 
     Raises:
-        BagError: The source is no bag, or is the target too.
+        BagError: The source is not a bag, or is the target too.
     """
     problems = check(source)
     if problems and not force:
@@ -188,7 +188,7 @@ def check(path: str) -> list[str]:
     """List problems of a bag's types with the definitions known here, one line each.
 
     Raises:
-        BagError: It is no bag.
+        BagError: It is not a bag.
     """
     reader = BagReader(path)
     try:

@@ -55,7 +55,7 @@ class PlayOptions:
     prefix: str = ""
     """Goes before the names of topics."""
     skip_empty: float | None = None
-    """Jump over gaps of more than so many seconds."""
+    """Jump over gaps of more than a given number of seconds."""
     wait_for_subscribers: bool = False
     keep_alive: bool = False
     """Stay after the end, for latched messages."""

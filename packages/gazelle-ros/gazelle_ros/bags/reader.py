@@ -135,7 +135,7 @@ class BagReader:
         begin: Offset of the first record after the header.
 
     Raises:
-        BagFormatError: It is no bag, or damaged.
+        BagFormatError: It is not a bag, or damaged.
         BagUnindexedError: It has no index.
         OSError: It cannot be read.
     """
@@ -190,7 +190,7 @@ def check_magic(view: memoryview) -> int:
     """Return the offset of the first record.
 
     Raises:
-        BagFormatError: It is no bag of format 2.0.
+        BagFormatError: It is not a bag of format 2.0.
     """
     begin = bytes(view[: len(records.MAGIC)])
     if begin == records.MAGIC:
@@ -201,7 +201,7 @@ def check_magic(view: memoryview) -> int:
             f"bags of format {version} are not read, only 2.0",
             hint="convert it with the 'rosbag fix' of an old ROS",
         )
-    raise BagFormatError("this is no bag: it does not begin with '#ROSBAG V2.0'")
+    raise BagFormatError("this is not a bag: it does not begin with '#ROSBAG V2.0'")
 
 
 def _read_tail(view: memoryview, header: records.Fields) -> BagIndex:

@@ -79,7 +79,7 @@ def duration_of(text: str) -> float:
     """
     match = _DURATION.fullmatch(text.strip())
     if match is None:
-        raise BagError(f"'{text}' is no duration", hint="write 30, 5m or 2h")
+        raise BagError(f"'{text}' is not a duration", hint="write 30, 5m or 2h")
     return float(match.group(1)) * _UNITS[match.group(2)]
 
 
@@ -360,7 +360,7 @@ def _pattern(text: str) -> re.Pattern[str]:
     try:
         return re.compile(text)
     except re.error as error:
-        raise BagError(f"'{text}' is no regular expression: {error}") from None
+        raise BagError(f"'{text}' is not a regular expression: {error}") from None
 
 
 def check(options: RecordOptions) -> None:

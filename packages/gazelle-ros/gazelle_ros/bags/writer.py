@@ -190,7 +190,7 @@ def open_for_appending(
     """Open a bag's file, cut off where its index began, and a writer that continues there.
 
     Raises:
-        BagError: It is no bag, or has no index.
+        BagError: It is not a bag, or has no index.
     """
     from gazelle_ros.bags.reader import BagReader
 

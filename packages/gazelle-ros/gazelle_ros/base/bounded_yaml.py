@@ -27,7 +27,7 @@ def safe_load(text: str) -> Any:
     """Return the value of a YAML document.
 
     Raises:
-        yaml.YAMLError: It is no YAML, holds more than ``MAX_VALUES`` values on more than
+        yaml.YAMLError: It is not valid YAML, holds more than ``MAX_VALUES`` values on more than
             ``MAX_DEPTH`` levels, or contains itself.
     """
     import yaml
@@ -48,7 +48,7 @@ def refuse_deep(text: str | bytes) -> None:
     """Raise an error for text of more than ``MAX_DEPTH`` levels, without any recursion.
 
     Raises:
-        yaml.YAMLError: It has more, or is no YAML.
+        yaml.YAMLError: It has more, or is not valid YAML.
     """
     import yaml
 
@@ -110,7 +110,7 @@ def _no_value(node: yaml.Node) -> yaml.YAMLError:
 
     kind = str(node.tag).rpartition(":")[2]
     shown = f"'{node.value[:_SHOWN]}'" if isinstance(node, yaml.ScalarNode) else "this"
-    problem = f"{shown} is no value of the kind '{kind}'"
+    problem = f"{shown} is not a value of the kind '{kind}'"
     return yaml.MarkedYAMLError(problem=problem, problem_mark=node.start_mark)
 
 

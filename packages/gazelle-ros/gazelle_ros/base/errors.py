@@ -63,7 +63,7 @@ class Error(Exception):
 
 
 class FormatError(Error):
-    """A file is malformed, or says something that cannot be."""
+    """A file is malformed, or says something that is impossible."""
 
 
 class ResolveError(FormatError):

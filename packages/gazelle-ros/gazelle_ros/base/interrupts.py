@@ -174,7 +174,7 @@ class SignalRelay:
 
     def post(self, number: int) -> None:
         """Send a number above 0; fit for a signal handler."""
-        with contextlib.suppress(BlockingIOError):  # so many wait already that one more is nothing
+        with contextlib.suppress(BlockingIOError):  # enough are queued already
             os.write(self._write, bytes([number]))
 
     @property
@@ -295,7 +295,7 @@ class _Listener:
             if self._chosen is not None:
                 self._chosen.request(byte - _HANDLED)
             else:
-                self._insist()
+                self._raise_again()
         elif byte in self._before:
             self._await_handler(byte)
 
@@ -314,7 +314,7 @@ class _Listener:
             os.write(2, f"\n{program_name()}: interrupted\n".encode())
         os._exit(128 + number)
 
-    def _insist(self) -> None:
+    def _raise_again(self) -> None:
         """Raise again what was lost, until the block has ended."""
         while not self._closing.wait(_LOST_S) and self.receivers:
             self._again = True

@@ -34,7 +34,7 @@ def value_of(values: Values, name: str, default: Any) -> Any:
         return int(found)
     if isinstance(found, kind) and not (kind is int and isinstance(found, bool)):
         return found
-    raise Error(f"the parameter '{name}' is a {kind.__name__}, not {found!r:.60}")
+    raise Error(f"the parameter '{name}' must be of type {kind.__name__}, not {found!r:.60}")
 
 
 def positive(name: str, value: Any, hint: str | None = None) -> float:
@@ -52,7 +52,7 @@ def positive(name: str, value: Any, hint: str | None = None) -> float:
     with contextlib.suppress(TypeError, ValueError, OverflowError):
         number = float(value)
     if not _LEAST <= number <= 1.0 / _LEAST:
-        raise RosError(f"{name} is above 0 (1e-9 to 1e9), not {value!r:.60}", hint=hint)
+        raise RosError(f"{name} must be above 0 (1e-9 to 1e9), not {value!r:.60}", hint=hint)
     return number
 
 

@@ -10,7 +10,7 @@ from typing import Any
 def real(value: Any) -> float | None:
     """Return a number as a float, NaN and infinity included.
 
-    None for what is no number: a bool, a text, or an int beyond all floats.
+    None for what is not a number: a bool, a text, or an int beyond all floats.
     """
     if isinstance(value, bool) or not isinstance(value, Real):
         return None

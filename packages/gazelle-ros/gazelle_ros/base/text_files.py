@@ -20,7 +20,7 @@ def read_text(file: Path) -> str:
         return file.read_text(encoding="utf-8")
     except UnicodeDecodeError as error:
         raise FormatError(
-            f"this is no text in UTF-8: {error.reason} (byte {error.object[error.start]:#04x})",
+            f"this is not UTF-8 text: {error.reason} (byte {error.object[error.start]:#04x})",
             file=str(file),
             line=error.object.count(b"\n", 0, error.start) + 1,
             hint="save it as UTF-8",
@@ -35,7 +35,7 @@ def read_rows(file: Path, *, whole: bool = False) -> tuple[list[str], list[dict[
         whole: Leave out a last line that was cut short.
 
     Raises:
-        FormatError: It is no table, or not in UTF-8; the error names the line.
+        FormatError: It is not a table, or not in UTF-8; the error names the line.
         OSError: It cannot be read.
     """
     lines = read_text(file).splitlines(keepends=True)
@@ -44,5 +44,5 @@ def read_rows(file: Path, *, whole: bool = False) -> tuple[list[str], list[dict[
         return [*(reader.fieldnames or ())], [*reader]
     except csv.Error as error:  # such as a quote that is never closed
         raise FormatError(
-            f"this is no table: {error}", file=str(file), line=reader.line_num
+            f"this is not a table: {error}", file=str(file), line=reader.line_num
         ) from None

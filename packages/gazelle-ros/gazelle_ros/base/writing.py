@@ -17,7 +17,7 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
     """Yield a file to write, which replaces another once it is whole.
 
     It lies beside the other, with the same suffix. After an error it is gone, and the other as it
-    was. What is no regular file, such as ``/dev/stdout``, is written directly.
+    was. What is not a regular file, such as ``/dev/stdout``, is written directly.
 
     Args:
         path: The file that is to be there at the end; a link stays one.
@@ -68,7 +68,7 @@ class GrowingFile(Closeable):
                 while left:
                     left = left[self._file.write(left) :]
         except OSError:
-            with contextlib.suppress(OSError):  # as of what is no regular file
+            with contextlib.suppress(OSError):  # as of what is not a regular file
                 os.truncate(self._file.fileno(), begin)
             raise
 

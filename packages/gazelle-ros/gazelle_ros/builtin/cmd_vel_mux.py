@@ -157,9 +157,7 @@ def _read(settings: CmdVelMuxSettings, where: str) -> tuple[str, list[MuxInput]]
     text = settings.yaml_cfg_data
     if not text:
         if not settings.yaml_cfg_file:
-            raise RosError(
-                "the sources are described nowhere", hint="set ~yaml_cfg_file to a YAML file"
-            )
+            raise RosError("no sources are configured", hint="set ~yaml_cfg_file to a YAML file")
         try:
             text = Path(settings.yaml_cfg_file).read_text(encoding="utf-8")
         except (OSError, ValueError) as error:
@@ -170,7 +168,7 @@ def _read(settings: CmdVelMuxSettings, where: str) -> tuple[str, list[MuxInput]]
         raise RosError(f"{where} has no list 'subscribers' of name, topic, timeout and priority")
     output = found.get("publisher", "output")
     if not isinstance(output, str) or not output:
-        raise RosError(f"the publisher of {where} is a topic, not {output!r:.60}")
+        raise RosError(f"the publisher of {where} must be a topic, not {output!r:.60}")
     inputs = [
         mux_input(f"subscribers[{number}] of {where}", each, highest=_HIGHEST, ignored=("short_desc",))
         for number, each in enumerate(listed)

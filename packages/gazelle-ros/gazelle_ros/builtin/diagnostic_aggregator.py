@@ -36,7 +36,7 @@ class DiagnosticAggregator:
         self._node, self._lock = node, threading.Lock()
         values = node.get_param("~analyzers", {})
         if not isinstance(values, Mapping):
-            raise RosError(f"{node.resolve('~analyzers')} is a namespace, not {values!r:.60}")
+            raise RosError(f"{node.resolve('~analyzers')} must be a namespace, not {values!r:.60}")
         base = str(node.get_param("~base_path", "")).strip("/")
         path = f"/{base}" if base else ""
         self._period = 1.0 / positive("pub_rate", node.get_param("~pub_rate", 1.0))

@@ -175,7 +175,7 @@ def _analyzer(
     where: str, name: str, values: Any, path: str
 ) -> AnalyzerGroup | GenericAnalyzer | IgnoredStatuses:
     if not isinstance(values, Mapping):
-        raise RosError(f"{where} is a namespace with 'type' and 'path', not {values!r:.60}")
+        raise RosError(f"{where} must be a namespace with 'type' and 'path', not {values!r:.60}")
     kind = str(values.get("type", "")).rpartition("/")[2]
     title = f"{path}/{str(value_of(values, 'path', name)).strip('/')}"
     if kind == "AnalyzerGroup":
@@ -210,10 +210,10 @@ def _generic(where: str, values: Mapping[str, Any], title: str) -> GenericAnalyz
 def _texts(where: str, value: Any) -> list[str]:
     found = [value] if isinstance(value, str) else value
     if not isinstance(found, list) or not all(isinstance(each, str) for each in found):
-        raise RosError(f"{where} is a text or a list of texts, not {value!r:.60}")
+        raise RosError(f"{where} must be a text or a list of texts, not {value!r:.60}")
     for each in found if where.endswith("/regex") else ():
         try:
             re.compile(each)
         except re.error as error:
-            raise RosError(f"{where}: '{each}' is no regular expression: {error}") from None
+            raise RosError(f"{where}: '{each}' is not a regular expression: {error}") from None
     return found

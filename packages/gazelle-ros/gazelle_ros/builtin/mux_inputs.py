@@ -76,7 +76,7 @@ def mux_input(where: str, entry: Any, *, highest: int, ignored: Collection[str] 
     name, topic = entry["name"], entry["topic"]
     for key in ("name", "topic"):
         if not (isinstance(entry[key], str) and entry[key]):
-            raise RosError(f"the {key} of {where} is a word, not {entry[key]!r:.60}")
+            raise RosError(f"the {key} of {where} must be a word, not {entry[key]!r:.60}")
     priority = _number(where, "priority", entry["priority"])
     timeout = _number(where, "timeout", entry["timeout"])
     clamped = round(min(max(priority, 0), highest))
@@ -88,5 +88,5 @@ def mux_input(where: str, entry: Any, *, highest: int, ignored: Collection[str] 
 def _number(where: str, key: str, value: Any) -> float:
     number = finite(value)
     if number is None:
-        raise RosError(f"the {key} of {where} is a number, not {value!r:.60}")
+        raise RosError(f"the {key} of {where} must be a number, not {value!r:.60}")
     return number

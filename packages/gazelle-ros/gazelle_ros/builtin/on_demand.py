@@ -1,4 +1,4 @@
-"""Subscriptions that exist only while somebody wants what is made of them."""
+"""Subscriptions that exist only while their results have subscribers."""
 
 from __future__ import annotations
 

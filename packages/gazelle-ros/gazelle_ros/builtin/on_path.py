@@ -95,7 +95,7 @@ def _quoted(path: str) -> str:
 
 
 def _made(files: Mapping[str, str]) -> Path | None:
-    """Return a folder with these files, named after their contents; None if it is not writable."""
+    """Return a cache folder with these files; None if the cache is not writable."""
     key = hashlib.sha256(repr(sorted(files.items())).encode()).hexdigest()[:16]
     base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "gazelle" / "programs"
     folder = base / key

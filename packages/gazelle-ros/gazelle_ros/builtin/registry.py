@@ -291,5 +291,5 @@ def _load(point: EntryPoint) -> BuiltinPackage:
     except Exception as error:
         raise RosError(f"the built-in package '{point.name}' cannot be loaded: {error}") from error
     if not isinstance(found, BuiltinPackage):
-        raise RosError(f"the entry point '{point.name}' of {GROUP} is no BuiltinPackage")
+        raise RosError(f"the entry point '{point.name}' of {GROUP} is not a BuiltinPackage")
     return found

@@ -105,4 +105,4 @@ def _number(text: str, usage: str) -> float:
     try:
         return float(text)
     except ValueError:
-        raise RosError(f"'{text}' is no number", hint=usage) from None
+        raise RosError(f"'{text}' is not a number", hint=usage) from None

@@ -65,7 +65,7 @@ def relay(arguments: Sequence[str]) -> int:
 
 
 def throttle(arguments: Sequence[str]) -> int:
-    """Forward so many messages, or bytes, a second at most; returns the exit code."""
+    """Forward a given number of messages, or bytes, per second at most; returns the exit code."""
     usage = (
         "throttle messages IN_TOPIC MESSAGES_PER_SECOND [OUT_TOPIC], "
         "or throttle bytes IN_TOPIC BYTES_PER_SECOND WINDOW [OUT_TOPIC]"
@@ -127,7 +127,7 @@ def _topics(words: Sequence[str], usage: str, suffix: str) -> tuple[str, str]:
 
 
 class _MessageGate:
-    """Lets through so many messages a second at most."""
+    """Lets through a given number of messages per second at most."""
 
     def __init__(self, per_second: float) -> None:
         self._gap = 1.0 / per_second
@@ -142,7 +142,7 @@ class _MessageGate:
 
 
 class _ByteGate:
-    """Lets through so many bytes a second at most, over a window of time [s]."""
+    """Lets through a given number of bytes per second at most, over a window of time [s]."""
 
     def __init__(self, per_second: float, window: float) -> None:
         self._limit = per_second * window

@@ -113,7 +113,7 @@ class TwistMarkerSettings:
 
 def _by_axis(name: str, values: Any) -> dict[str, float]:
     if not isinstance(values, dict) or not values or not set(values) <= set(_AXES):
-        raise RosError(f"'{name}' is a mapping of x, y or z to a number, not {values!r}")
+        raise RosError(f"'{name}' must be a mapping of x, y or z to a number, not {values!r}")
     return {axis: value_of(values, axis, 0.0) for axis in values}
 
 

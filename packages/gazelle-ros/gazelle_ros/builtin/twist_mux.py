@@ -62,7 +62,7 @@ class TwistMux:
         self._lock = threading.Lock()
         self.priorities = Priorities(list(_sources(node, "topics")), list(_sources(node, "locks")))
         if not self.priorities.velocities:
-            _LOG.warning("%s/topics is empty: no command will pass", node.name)
+            _LOG.warning("%s/topics is empty: no command is forwarded", node.name)
         twist, flag = geometry_msgs.msg.Twist, std_msgs.msg.Bool
         self._commands = node.advertise("cmd_vel_out", twist, queue_size=1)
         self._diagnostics = DiagnosticPublisher(node, "Twist mux status")
@@ -151,11 +151,13 @@ def _sources(node: Node, parameter: str) -> Iterator[MuxInput]:
     """Yield the sources of a parameter.
 
     Raises:
-        RosError: It is no list of them.
+        RosError: It is not a list of them.
     """
     full = node.resolve(f"~{parameter}")
     listed = node.get_param(full, [])
     if not isinstance(listed, list):
-        raise RosError(f"{full} is a list of name, topic, timeout and priority, not {listed!r:.60}")
+        raise RosError(
+            f"{full} must be a list of name, topic, timeout and priority, not {listed!r:.60}"
+        )
     for number, each in enumerate(listed):
         yield mux_input(f"{full}[{number}]", each, highest=HIGHEST)

@@ -198,5 +198,5 @@ class VelocitySmoother:
 def _checked(settings: SmootherSettings) -> SmootherSettings:
     positive("frequency", settings.frequency)
     if settings.robot_feedback not in {NONE, ODOMETRY, COMMANDS}:
-        raise RosError(f"robot_feedback is 0, 1 or 2, not {settings.robot_feedback}")
+        raise RosError(f"robot_feedback must be 0, 1 or 2, not {settings.robot_feedback}")
     return settings

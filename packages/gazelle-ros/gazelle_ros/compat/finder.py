@@ -135,13 +135,13 @@ class RosFinder(importlib.abc.MetaPathFinder):
         if fullname in namesakes.NAMES:
             return namesakes.spec(fullname, path)
         if rest:
-            return _below_a_substitute(package, fullname) or self._elsewhere(fullname, path)
+            return _below_a_substitute(package, fullname) or self._run_on_worker(fullname, path)
         if package in _COMPILED:
             return ModuleSpec(package, AliasLoader())
         return self._package(package, path)
 
     @staticmethod
-    def _elsewhere(name: str, path: Sequence[str] | None) -> ModuleSpec | None:
+    def _run_on_worker(name: str, path: Sequence[str] | None) -> ModuleSpec | None:
         """Return the spec of a module of a package, if the module lies in another folder."""
         named = workspace_code.named_spec(name)
         return named if named is not None and PathFinder.find_spec(name, path) is None else None

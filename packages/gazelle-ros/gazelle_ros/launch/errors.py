@@ -6,7 +6,7 @@ from gazelle_ros.base.errors import RosError
 
 
 class LaunchError(RosError):
-    """A launch file is malformed, or asks for something that cannot be."""
+    """A launch file is malformed, or asks for something that is impossible."""
 
 
 class SubstitutionError(LaunchError):

@@ -308,7 +308,7 @@ class _Loader:
         )
         self._clear(element, scope, inner, node.name)
         if not names.is_legal_base(node.name):
-            self._notice(element, f"'{node.name}' is no legal name of a node")
+            self._notice(element, f"'{node.name}' is not a legal name of a node")
         for parameter in parameters:
             params.put(self.plan, parameter)
         if isinstance(node, TestPlan):

@@ -125,7 +125,7 @@ def _load(
         raise element.error(where + error.message, error.hint) from None
     data = {} if data is None else data
     if not has_name and not isinstance(data, dict):
-        raise element.error("a value that is no mapping needs the attribute 'param'")
+        raise element.error("a value that is not a mapping needs the attribute 'param'")
     if names.is_private(name):
         for key, value in flatten(name[1:], data):
             scope.private.append((key, value, place_of(element)))

@@ -101,7 +101,7 @@ class NodePlan:
 class TestPlan(NodePlan):
     """A test node to run."""
 
-    __test__ = False  # it is no test of pytest's
+    __test__ = False  # it is not a test of pytest's
 
     test_name: str
     time_limit: float = 60.0

@@ -114,7 +114,7 @@ class Launch(Closeable):
         """Start the master if there is none, set parameters, start nodes.
 
         Raises:
-            LaunchError: A required node or all nodes have no program, or a parameter cannot be
+            LaunchError: A required node or all nodes have no program, or a parameter is invalid
                 set. No node runs then.
             MasterUnreachableError: There is no master, and it is not for this machine to start one.
         """
@@ -287,7 +287,7 @@ class Launch(Closeable):
             1 if a required node failed, else 0.
         """
         while not self.ended.wait(_WATCH_S):
-            self.look()
+            self.poll()
             if self.idle:
                 if self.processes:
                     self._say("all nodes have ended, and so does the launch")
@@ -313,7 +313,7 @@ class Launch(Closeable):
         """True if a required node failed."""
         return self._failed
 
-    def look(self) -> None:
+    def poll(self) -> None:
         """Check all processes once: report ends, respawn what is due."""
         with self._lock:
             self._look()

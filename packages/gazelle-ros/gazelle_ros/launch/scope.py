@@ -126,7 +126,7 @@ class LaunchScope:
             number = finite(float(value))
             if number is not None:
                 return number
-        raise element.error(f"{key}='{value:.60}' is no finite number")
+        raise element.error(f"{key}='{value:.60}' is not a finite number")
 
     def applies(self, element: Element) -> bool:
         """Return whether an element's ``if`` or ``unless`` includes it.
@@ -175,7 +175,7 @@ class LaunchScope:
         for key, name in (("from", old), ("to", new)):
             name = names.canonical(name.strip())  # noqa: PLW2901  # the same name, tidied
             if not names.is_legal(name) and name != "/":
-                raise element.error(f"{key}='{name}' is no legal name")
+                raise element.error(f"{key}='{name}' is not a legal name")
             pair.append(name)
         self.remappings.pop(pair[0], None)
         self.remappings[pair[0]] = pair[1]

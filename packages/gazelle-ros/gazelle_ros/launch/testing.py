@@ -48,7 +48,7 @@ class TestReport:
         seconds: Duration.
     """
 
-    __test__ = False  # it is no test of pytest's
+    __test__ = False  # it is not a test of pytest's
 
     name: str
     cases: list[Case] = field(default_factory=list)
@@ -203,7 +203,7 @@ def _wait(launch: Launch, node: TestPlan, test: TestPlan) -> str:
         if time.monotonic() >= end:
             kind = f"{test.package}/{test.type}"
             return f"max time [{test.time_limit}s] allotted for test [{test.test_name}] of type [{kind}]"
-        launch.look()
+        launch.poll()
         if launch.ended.is_set() and process.running:
             return f"the launch ended before test [{test.test_name}] did"
         time.sleep(_LOOK_S)
@@ -215,7 +215,7 @@ def read_results(path: Path, name: str) -> list[Case]:
 
     Raises:
         OSError: It cannot be read, or is too long.
-        ParseError: It is no XML.
+        ParseError: It is not XML.
     """
     if path.stat().st_size > _LARGEST:
         raise OSError(f"the file is longer than {_LARGEST >> 20} MiB")

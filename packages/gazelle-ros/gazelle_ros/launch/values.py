@@ -29,7 +29,7 @@ def convert(text: str, kind: str) -> Any:
     try:
         return _convert(text, kind)
     except ValueError:
-        raise LaunchError(f"'{text}' is no {kind}") from None
+        raise LaunchError(f"'{text}' is not of type {kind}") from None
 
 
 def _convert(text: str, kind: str) -> Any:
@@ -45,7 +45,7 @@ def _convert(text: str, kind: str) -> Any:
         return truth(text)
     if kind == "yaml":
         return load_yaml(text)
-    raise LaunchError(f"'{kind}' is no type", hint="types are: " + ", ".join(KINDS))
+    raise LaunchError(f"'{kind}' is not a type", hint="types are: " + ", ".join(KINDS))
 
 
 def automatic(text: str) -> Any:
@@ -161,7 +161,7 @@ def _no_yaml(text: str, error: Exception) -> LaunchError:
     hint = characters.curly_hint(here)
     if here[: len(here) - len(here.lstrip())].count("\t"):
         hint = "indent by spaces: YAML takes no tabs"
-    return LaunchError(f"this is no YAML{line}: {problem}", hint=hint)
+    return LaunchError(f"this is not valid YAML{line}: {problem}", hint=hint)
 
 
 _loaders: list[Any] = []
@@ -210,8 +210,8 @@ def angle(text: str, unit: str) -> float:
     except ValueError:
         pass
     if not _PLAIN_NUMBER.fullmatch(inner) or "**" in inner:
-        raise LaunchError(f"'{text}' is no number ({unit})")
+        raise LaunchError(f"'{text}' is not a number ({unit})")
     try:
         return float(eval(inner, {"__builtins__": {}}, {"pi": math.pi}))  # noqa: S307  # digits and pi only
     except Exception:  # noqa: BLE001  # whatever an expression may raise
-        raise LaunchError(f"'{text}' is no number ({unit})") from None
+        raise LaunchError(f"'{text}' is not a number ({unit})") from None

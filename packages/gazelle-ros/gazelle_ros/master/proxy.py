@@ -37,7 +37,7 @@ def value_of(method: str, triple: Any) -> Any:
 
     Raises:
         ApiError: Its code is not 1.
-        ProtocolError: It is no triple.
+        ProtocolError: It is not a triple.
     """
     if not isinstance(triple, list) or len(triple) != 3:
         raise ProtocolError(f"{method} was answered with {str(triple)[:80]}")
@@ -195,4 +195,4 @@ class MasterProxy:
 
 def _no_master(uri: str, why: str) -> NoMasterError:
     """Return the error for a port that something else uses."""
-    return NoMasterError(f"what listens at {uri} is no ROS master ({why})", hint=taken_hint())
+    return NoMasterError(f"what listens at {uri} is not a ROS master ({why})", hint=taken_hint())

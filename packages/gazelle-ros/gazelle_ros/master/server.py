@@ -140,7 +140,9 @@ def _cannot_listen(error: OSError, host: str, port: int) -> RosError:
     try:
         process = there.get_pid()
     except (RosError, ValueError):
-        return RosError(text + "a program that is no ROS master has that port", hint=taken_hint())
+        return RosError(
+            text + "a program that is not a ROS master has that port", hint=taken_hint()
+        )
     finally:
         there.close()
     return RosError(

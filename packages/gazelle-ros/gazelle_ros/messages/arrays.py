@@ -95,7 +95,7 @@ def octets(value: Any, count: int | None) -> bytes | bytearray | memoryview:
 
 
 def numbers(value: Any, base: str, count: int | None) -> bytes:
-    """Encode an array of numbers that is no list or tuple, with its length if that varies.
+    """Encode an array of numbers that is not a list or tuple, with its length if that varies.
 
     Args:
         value: A numpy array of any shape (taken row by row), or another sequence.

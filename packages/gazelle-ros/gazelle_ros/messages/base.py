@@ -35,7 +35,7 @@ class Message:
 
     Raises:
         TypeError: Arguments of both kinds, or not one for each field.
-        AttributeError: A keyword is no field.
+        AttributeError: A keyword is not a field.
     """
 
     __slots__ = ["_connection_header"]

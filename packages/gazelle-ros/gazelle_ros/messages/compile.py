@@ -29,7 +29,7 @@ def compiled(owner: type[Message], method: str) -> Any:
 
 
 def warn_once(name: str) -> None:
-    """Log that a message had text that is no UTF-8, once for each type."""
+    """Log that a message had text that is not UTF-8, once for each type."""
     if name not in _warned:
         _warned.add(name)
         logging.getLogger("rosout").error(

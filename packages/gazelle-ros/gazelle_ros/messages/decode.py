@@ -16,7 +16,7 @@ from gazelle_ros.messages.spec import OCTETS, STRUCT_CODES, Field, MessageSpec
 _TIME_CODES = {"time": "I", "duration": "i"}
 MODES = ("plain", "numpy", "arrays", "lossy")
 """``plain``: tuples and bytes; ``numpy``: numpy arrays, but bytes for octets, as genpy; ``arrays``:
-numpy arrays for octets too; ``lossy``: as plain, replacing what is no UTF-8."""
+numpy arrays for octets too; ``lossy``: as plain, replacing what is not UTF-8."""
 
 _MOST_EMPTY_ELEMENTS = 1 << 16
 

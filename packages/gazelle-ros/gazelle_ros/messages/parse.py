@@ -40,7 +40,7 @@ def parse_message(full_name: str, text: str, *, file: str | None = None) -> Mess
             cannot be printed.
     """
     if not full_name.isprintable():  # Python's classes cannot be called so
-        raise InvalidDefinitionError(f"{full_name!r} is no name of a type")
+        raise InvalidDefinitionError(f"{full_name!r} is not a name of a type")
     package = full_name.partition("/")[0]
     fields: list[Field] = []
     constants: list[Constant] = []
@@ -129,10 +129,10 @@ def _parse_field(content: str, package: str) -> Field:
         raise ValueError("a field is a type and a name")
     type_, name = words
     if not _FIELD_NAME.fullmatch(name):
-        raise ValueError(f"'{name}' is no legal field name")
+        raise ValueError(f"'{name}' is not a legal field name")
     match = _FIELD_TYPE.fullmatch(type_)
     if not match:
-        raise ValueError(f"'{type_}' is no legal type")
+        raise ValueError(f"'{type_}' is not a legal type")
     if match[1] and int(match[1]) > _LONGEST_FIXED_ARRAY:
         raise ValueError(f"an array of {match[1]} elements is too long")
     if type_ in {"Header", "roslib/Header"}:
@@ -145,7 +145,7 @@ def _parse_field(content: str, package: str) -> Field:
 def _parse_constant(line: str, content: str) -> Constant:
     type_ = content.split(maxsplit=1)[0].partition("=")[0]
     if type_ not in CONSTANT_TYPES:
-        raise ValueError(f"'{type_}' is no type for a constant")
+        raise ValueError(f"'{type_}' is not a type for a constant")
     # A string continues to the end of the line: a # in it starts no comment.
     source = line if type_ == "string" else content
     before, _, value = source.partition("=")
@@ -167,7 +167,7 @@ def _constant_value(type_: str, text: str) -> bool | int | float | str:
         try:
             return bool(ast.literal_eval(text))
         except (SyntaxError, ValueError) as err:
-            raise ValueError(f"'{text}' is no bool") from err
+            raise ValueError(f"'{text}' is not a bool") from err
     if type_ in FLOATS:
         return float(text)
     value = int(text)

@@ -154,7 +154,8 @@ class Registry:
         package, _, short = name.partition("/")
         if not short:
             return UnknownTypeError(
-                f"'{name}' is no type name", hint="write the package too, as in 'std_msgs/String'"
+                f"'{name}' is not a type name",
+                hint="write the package too, as in 'std_msgs/String'",
             )
         sources = list(self._find(package))
         if not sources:

@@ -73,14 +73,14 @@ def from_yaml(message: type[Message] | Message, text: str, keys: Mapping[str, An
         keys: Messages and times by the words that stand for them, such as ``now``.
 
     Raises:
-        MessageException: A field does not exist, has a wrong form, or the text is no YAML.
+        MessageException: A field does not exist, has a wrong form, or the text is not valid YAML.
     """
     import yaml
 
     try:
         value = bounded_yaml.safe_load(text)
     except yaml.YAMLError as err:
-        raise MessageException(f"this is no YAML: {err}") from err
+        raise MessageException(f"this is not valid YAML: {err}") from err
     return from_dict(message, value, keys)
 
 

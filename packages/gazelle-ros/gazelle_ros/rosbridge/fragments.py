@@ -59,7 +59,7 @@ class FragmentBuffer:
         """
         self._forget_old()
         if total < 1 or not 0 <= number < total:
-            raise RosError(f"fragment {number} of {total} cannot be")
+            raise RosError(f"fragment {number} of {total} is invalid")
         if self._totals.setdefault(identifier, total) != total:
             self._drop(identifier)
             raise RosError(f"the fragments of {identifier} say different totals")
@@ -117,4 +117,4 @@ def text_of_png(data: str, most_bytes: int) -> str:
             raise RosError(f"the text of a PNG has more than {most_bytes} bytes")
         return picture.convert("RGB").tobytes().decode("utf-8")
     except (OSError, ValueError, SyntaxError) as error:
-        raise RosError(f"this is no PNG with text: {error}") from None
+        raise RosError(f"this is not a PNG with text: {error}") from None

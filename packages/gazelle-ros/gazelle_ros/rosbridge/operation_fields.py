@@ -56,19 +56,19 @@ class OperationFields:
         """Return a number, finite and not below zero."""
         value = self.any(name) if default is _MISSING else self.get(name, default)
         if isinstance(value, bool) or not isinstance(value, (int, float)):
-            raise self._misfit(name, "number", value)
+            raise self._type_error(name, "number", value)
         if not 0 <= value < math.inf:
-            raise self._misfit(name, "number not below zero", value)
+            raise self._type_error(name, "number not below zero", value)
         return float(value)
 
     def _typed(self, name: str, kind: type, default: Any) -> Any:
         value = self.any(name) if default is _MISSING else self.get(name, default)
         if type(value) is not kind:
-            raise self._misfit(name, _NAMES[kind], value)
+            raise self._type_error(name, _NAMES[kind], value)
         return value
 
     @staticmethod
-    def _misfit(name: str, expected: str, value: Any) -> RosError:
+    def _type_error(name: str, expected: str, value: Any) -> RosError:
         return RosError(
             f"Expected field {name} to be a {expected}, but got a {type(value).__name__}: "
             f"{str(value)[:60]}"

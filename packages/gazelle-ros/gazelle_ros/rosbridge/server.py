@@ -105,7 +105,7 @@ class BridgeServer(Closeable):
             context.load_cert_chain(settings.certfile, settings.keyfile)
         ping = settings.websocket_ping_interval or None
         async with serve(
-            self._talk,
+            self._serve_client,
             settings.address,
             settings.port,
             process_request=self._judge,
@@ -134,7 +134,7 @@ class BridgeServer(Closeable):
             403, "pages of this origin may not connect; see rosbridge's parameter allowed_origins\n"
         )
 
-    async def _talk(self, connection: ServerConnection) -> None:
+    async def _serve_client(self, connection: ServerConnection) -> None:
         """Serve one client, from its first message to its last."""
         from websockets.exceptions import ConnectionClosed
 
@@ -146,7 +146,7 @@ class BridgeServer(Closeable):
         sender = asyncio.create_task(self._send_all(connection, outbox, news))
         try:
             async for message in connection:
-                await self._elsewhere(functools.partial(session.receive, message))
+                await self._run_on_worker(functools.partial(session.receive, message))
                 if outbox.stuck:
                     await connection.close(_TOO_SLOW, "answers are not taken")
         except ConnectionClosed:
@@ -154,7 +154,7 @@ class BridgeServer(Closeable):
         finally:
             sender.cancel()
             self._clients.remove(connection)
-            await self._elsewhere(session.close)
+            await self._run_on_worker(session.close)
 
     async def _send_all(
         self, connection: ServerConnection, outbox: ClientQueue, news: asyncio.Event
@@ -184,7 +184,7 @@ class BridgeServer(Closeable):
             if len(message) <= _SMALL:
                 data = message.encoded(settings.compression)
             else:
-                data = await self._elsewhere(lambda: message.encoded(settings.compression))
+                data = await self._run_on_worker(lambda: message.encoded(settings.compression))
         except Exception as error:  # noqa: BLE001  # a message that is none must not end the rest
             report("rosbridge cannot encode a message", error)
             return []
@@ -193,7 +193,7 @@ class BridgeServer(Closeable):
             return [data]
         return list(split_text(data, size, str(next(self._fragment_numbers))))
 
-    async def _elsewhere(self, task: Callable[[], Any]) -> Any:
+    async def _run_on_worker(self, task: Callable[[], Any]) -> Any:
         """Run what may take long on a worker thread, and wait for it."""
         done: asyncio.Future[Any] = self._loop.create_future()
 

@@ -96,10 +96,10 @@ class BridgeSession:
         try:
             message = json.loads(text)
         except (ValueError, RecursionError) as error:
-            self.status("error", f"the message is no JSON ({error}): {text[:80]}")
+            self.status("error", f"the message is not valid JSON ({error}): {text[:80]}")
             return
         if not isinstance(message, dict):
-            self.status("error", f"the message is no JSON object: {text[:80]}")
+            self.status("error", f"the message is not a JSON object: {text[:80]}")
             return
         identifier, operation = message.get("id"), message.get("op")
         known = [*self._operations, "fragment", "png"]
@@ -272,7 +272,7 @@ class BridgeSession:
 
     def _auth(self, _message: OperationFields) -> None:
         raise RosError(
-            "this server authenticates nobody; whoever may reach it may use it",
+            "this server does not support authentication",
             hint="leave 'auth' out",
         )
 

@@ -124,7 +124,7 @@ def _command_line(words: Sequence[str]) -> dict[str, Any]:
         name = word.removeprefix("--")
         if not word.startswith("--") or name not in {*_names(), *_SWITCHES}:
             raise RosError(
-                f"'{word}' is no option of rosbridge_websocket",
+                f"'{word}' is not an option of rosbridge_websocket",
                 hint=did_you_mean(word, [f"--{each}" for each in _names()]),
             )
         if name in _SWITCHES:

@@ -126,7 +126,7 @@ class _Filler:
 
     def fill(self, message: Any, values: Any, path: tuple[str, ...]) -> None:
         if not isinstance(values, Mapping):
-            raise self._misfit(path, "JSON object", values)
+            raise self._type_error(path, "JSON object", values)
         message_class: Any = type(message)
         kinds = _kinds(message_class)
         for name, value in values.items():
@@ -154,7 +154,7 @@ class _Filler:
             return self._time(base, value, path)
         if base in {"string", "bool"}:
             if not isinstance(value, str if base == "string" else bool):
-                raise self._misfit(path, base, value)
+                raise self._type_error(path, base, value)
             return value
         message = load_message(base)() if default is None else default
         self.fill(message, value, path)
@@ -170,7 +170,7 @@ class _Filler:
                 for index, each in enumerate(value)
             ]
         else:
-            raise self._misfit(path, wanted, value)
+            raise self._type_error(path, wanted, value)
         if length is not None and len(found) != length:
             raise MessageException(
                 f"{self._root} message requires {length} items for field {'.'.join(path)}, "
@@ -182,21 +182,21 @@ class _Filler:
         try:
             return base64.b64decode(value, validate=True)
         except (binascii.Error, ValueError):
-            raise self._misfit(path, f"{type_name} as base64 or list", value) from None
+            raise self._type_error(path, f"{type_name} as base64 or list", value) from None
 
     def _float(self, base: str, value: Any, path: tuple[str, ...]) -> float:
         if value is None:
             return math.nan  # what is not finite comes back as it went out
         if isinstance(value, bool) or not isinstance(value, (int, float)):
-            raise self._misfit(path, base, value)
+            raise self._type_error(path, base, value)
         try:
             return float(value)
         except OverflowError:
-            raise self._misfit(path, base, value) from None
+            raise self._type_error(path, base, value) from None
 
     def _integer(self, base: str, value: Any, path: tuple[str, ...]) -> int:
         if isinstance(value, bool) or not isinstance(value, int):
-            raise self._misfit(path, base, value)
+            raise self._type_error(path, base, value)
         unsigned = base in UNSIGNED
         high = 1 << (INTEGER_BITS[base] - (not unsigned))
         if not (0 if unsigned else -high) <= value < high:
@@ -210,7 +210,7 @@ class _Filler:
         if base == "time" and value == "now":
             return Time(self._now.secs, self._now.nsecs)
         if not isinstance(value, Mapping):
-            raise self._misfit(path, f"{base} (an object with secs and nsecs)", value)
+            raise self._type_error(path, f"{base} (an object with secs and nsecs)", value)
         integer = "uint32" if base == "time" else "int32"
         parts = []
         for known, old in (("secs", "sec"), ("nsecs", "nanosec")):
@@ -218,11 +218,11 @@ class _Filler:
             parts.append(self._integer(integer, each, (*path, known)))
         unknown = set(value) - {"secs", "nsecs", "sec", "nanosec"}
         if unknown:
-            raise self._misfit(path, f"{base} (an object with secs and nsecs)", value)
+            raise self._type_error(path, f"{base} (an object with secs and nsecs)", value)
         made: Any = Time(*parts) if base == "time" else Duration(*parts)
         return made
 
-    def _misfit(self, path: tuple[str, ...], expected: str, value: Any) -> MessageException:
+    def _type_error(self, path: tuple[str, ...], expected: str, value: Any) -> MessageException:
         if not path:
             return MessageException(
                 f"Expected a JSON object for type {self._root} but received a "

@@ -23,7 +23,7 @@ _MOST = 4
 """Sockets read so at a time, of one process."""
 _READS = 32
 _BUSY_S = 0.064
-"""A socket that was read `_READS` times within so many seconds is busy."""
+"""A socket that was read `_READS` times within this number of seconds is busy."""
 _IDLE_S = 0.05
 """It is no longer when nothing comes for so long."""
 _TIMEOUT = struct.pack("ll", 0, round(_IDLE_S * 1e6))
@@ -92,9 +92,9 @@ class DedicatedReader:
         except RosError as wrong:
             error = wrong
         finally:
-            self._loop.call_soon(lambda: self._give_back(sock, error))
+            self._loop.call_soon(lambda: self._return_socket(sock, error))
 
-    def _give_back(self, sock: socket.socket, error: RosError | None) -> None:
+    def _return_socket(self, sock: socket.socket, error: RosError | None) -> None:
         self._loop.dedicated -= 1
         self.active = False
         sock.setblocking(False)

@@ -97,7 +97,7 @@ class InboundLink:
         self._timer: TimerHandle | None = None
         self.paused = False
         self._complained = ""
-        self._dedicated = DedicatedReader(loop, self._read_next, self._given_back)
+        self._dedicated = DedicatedReader(loop, self._read_next, self._return_socket)
 
     def open(self) -> None:
         """Open the link: request the publisher's address."""
@@ -182,7 +182,7 @@ class InboundLink:
         net.keep_alive(sock)
         self._sock = sock
         # A worker may still be busy with a message of the connection before.
-        self._dedicated = DedicatedReader(self._loop, self._read_next, self._given_back)
+        self._dedicated = DedicatedReader(self._loop, self._read_next, self._return_socket)
         self.paused = False
         self._reader = FrameReader(self._receiver.limits.header_bytes)
         self._outgoing = headers.encode(self._receiver.request_header())
@@ -222,7 +222,7 @@ class InboundLink:
         self.messages += len(frames)
         return self._receiver.receive(self, frames, now=True) and not self.paused
 
-    def _given_back(self, sock: socket.socket, error: RosError | None) -> None:
+    def _return_socket(self, sock: socket.socket, error: RosError | None) -> None:
         """Return the socket to the event loop."""
         if sock is not self._sock:  # the link has left it
             self._loop.close(sock)

@@ -66,7 +66,7 @@ class TcprosServer:
         """Remove a connection that is past its header, or closed."""
         self._greeting.pop(greeting, None)
 
-    def hand_over(self, greeting: _Greeting, body: bytes, rest: bytes) -> None:
+    def dispatch(self, greeting: _Greeting, body: bytes, rest: bytes) -> None:
         """Pass a connection to the target of its header."""
         try:
             self._route(greeting.sock, greeting.address, headers.decode(body), rest)
@@ -120,7 +120,7 @@ class _Greeting:
         if len(self._data) >= 4 + length:
             self._leave()
             body = bytes(self._data[4 : 4 + length])
-            self._server.hand_over(self, body, bytes(self._data[4 + length :]))
+            self._server.dispatch(self, body, bytes(self._data[4 + length :]))
 
 
 def refuse(sock: socket.socket, text: str) -> None:

@@ -65,7 +65,7 @@ class ServiceConnection:
         self._queue = SerialQueue(loop, self._work, f"service call of {self.peer}")
         self._closed = False
         self._working = False
-        self._dedicated = DedicatedReader(loop, self._read_next, self._given_back)
+        self._dedicated = DedicatedReader(loop, self._read_next, self._return_socket)
 
     def start(self, reply: bytes, rest: bytes) -> None:
         """Send the header and take requests. Only on the loop's thread."""
@@ -114,7 +114,7 @@ class ServiceConnection:
             self._queue.handle_all(requests)
         return self._reader.received > before
 
-    def _given_back(self, _sock: socket.socket, error: RosError | None) -> None:
+    def _return_socket(self, _sock: socket.socket, error: RosError | None) -> None:
         """Return the socket to the event loop."""
         if self._closed:
             self._close_socket()

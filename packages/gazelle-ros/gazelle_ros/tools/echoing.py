@@ -51,7 +51,7 @@ class Echo:
         out: Gets the text.
         options: Options of the output.
         steps: The part of each message.
-        kind: The type of that part, if it is no message.
+        kind: The type of that part, if it is not a message.
     """
 
     def __init__(
@@ -150,7 +150,7 @@ def _wait(writer: Echo, stop: threading.Event, *, simulated: bool) -> None:
 
 
 def _leaf_type(kind: str, steps: list[FieldAccess]) -> str | None:
-    """Return the type of a field, if the message's type is known and it is no message."""
+    """Return the type of a field, if the message's type is known and it is not a message."""
     if not steps:
         return None
     from gazelle_ros.base.errors import Error
@@ -169,7 +169,7 @@ def echo_bag(
     """Write the messages of a bag, of one topic or all.
 
     Raises:
-        RosError: The file is no bag.
+        RosError: The file is not a bag.
     """
     from gazelle_ros.bags import Bag
 
@@ -194,7 +194,7 @@ def filter_of(expression: str) -> Callable[[Message], bool]:
     """Compile a function of a message ``m`` from a Python expression.
 
     Raises:
-        ToolError: It is no expression; and by the function where it fails.
+        ToolError: It is not an expression; and by the function where it fails.
     """
     value = compiled(expression, ToolError)
     return lambda message: bool(value(m=message))

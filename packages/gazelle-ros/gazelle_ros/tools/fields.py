@@ -36,7 +36,7 @@ def parse_path(text: str) -> list[FieldAccess]:
 def _step(part: str) -> FieldAccess:
     match = _STEP.fullmatch(part)
     if match is None:
-        raise ToolError(f"'{part}' is no field", hint="write name, name[0] or name[1:3]")
+        raise ToolError(f"'{part}' is not a field", hint="write name, name[0] or name[1:3]")
     name, inner = match.groups()
     if inner is None:
         return FieldAccess(name, None)
@@ -44,7 +44,7 @@ def _step(part: str) -> FieldAccess:
         return FieldAccess(name, int(inner))
     bounds = _SLICE.fullmatch(inner)
     if bounds is None:
-        raise ToolError(f"'[{inner}]' is no index", hint="write [0] or [1:3]")
+        raise ToolError(f"'[{inner}]' is not an index", hint="write [0] or [1:3]")
     start, stop, stride = (None if each is None else int(each) for each in bounds.groups())
     return FieldAccess(name, slice(start, stop, stride))
 
@@ -93,7 +93,7 @@ def type_at(message_class: type[Message], steps: Sequence[FieldAccess]) -> str:
     return kind
 
 
-def texts_as_texts(message: Message, arguments: Sequence[Any]) -> list[Any]:
+def keep_text_fields(message: Message, arguments: Sequence[Any]) -> list[Any]:
     """Return values of a command line, with numbers for text fields as text.
 
     ``2.0`` and ``max`` are both words for people; YAML makes a number of the first.

@@ -18,7 +18,7 @@ from gazelle_ros.node import Node
 from gazelle_ros.publishing import Publisher
 from gazelle_ros.time import Time
 from gazelle_ros.tools.errors import ToolError
-from gazelle_ros.tools.fields import texts_as_texts
+from gazelle_ros.tools.fields import keep_text_fields
 from gazelle_ros.tools.graph import GraphInspector
 from gazelle_ros.tools.watching import tool_node
 
@@ -41,7 +41,7 @@ def parse_arguments(words: Iterable[str]) -> list[Any]:
         try:
             found.append(bounded_yaml.safe_load(word) if word else "")
         except yaml.YAMLError as error:
-            raise ToolError(f"'{word}' is no YAML: {error}") from None
+            raise ToolError(f"'{word}' is not valid YAML: {error}") from None
     return found
 
 
@@ -75,7 +75,7 @@ def file_documents(path: str) -> list[list[Any]]:
     except OSError as error:
         raise ToolError(f"{path} cannot be read: {error.strerror}") from None
     except yaml.YAMLError as error:
-        raise ToolError(f"{path} is no YAML: {error}") from None
+        raise ToolError(f"{path} is not valid YAML: {error}") from None
 
 
 class MessagePublisher:
@@ -142,7 +142,7 @@ class MessagePublisher:
         now = Time(nsecs=self._node.clock.now() if self._ros_time else time.time_ns())
         keys = {"now": now, "auto": std_msgs.msg.Header(stamp=now)}
         try:
-            fill_message_args(message, texts_as_texts(message, arguments), keys=keys)
+            fill_message_args(message, keep_text_fields(message, arguments), keys=keys)
         except (MessageException, ValueError) as error:
             known = get_printable_message_args(message)
             raise ToolError(f"{error}", hint=f"Args are: [{known}]") from None

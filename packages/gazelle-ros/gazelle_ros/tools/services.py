@@ -16,7 +16,7 @@ from gazelle_ros.tcpros import headers
 from gazelle_ros.tcpros.service_links import ServiceChannel
 from gazelle_ros.time import Time
 from gazelle_ros.tools.errors import ToolError
-from gazelle_ros.tools.fields import texts_as_texts
+from gazelle_ros.tools.fields import keep_text_fields
 from gazelle_ros.tools.graph import GraphInspector
 
 _PATIENCE_S = 5.0
@@ -154,7 +154,7 @@ class ServiceCaller:
         now = Time(nsecs=self._node.clock.now())
         keys = {"now": now, "auto": std_msgs.msg.Header(stamp=now)}
         try:
-            fill_message_args(made, texts_as_texts(made, arguments), keys=keys)
+            fill_message_args(made, keep_text_fields(made, arguments), keys=keys)
         except (MessageException, ValueError) as error:
             given = "\n".join(f" * {each} (type {type(each).__name__})" for each in arguments)
             known = get_printable_message_args(made)

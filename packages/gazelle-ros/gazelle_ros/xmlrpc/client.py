@@ -33,7 +33,7 @@ def value_of_answer(message: HttpMessage, limits: NetworkLimits) -> Any:
     Raises:
         ProtocolError: Its HTTP status is no success.
         FaultError: It is a fault.
-        MarshalError: It is no XML-RPC.
+        MarshalError: It is not XML-RPC.
     """
     status = message.first[1]
     if status != "200":
@@ -69,7 +69,7 @@ class BlockingClient:
         """Call a method; returns the value of the answer.
 
         Raises:
-            MarshalError: A parameter cannot be sent, or the answer is no XML-RPC.
+            MarshalError: A parameter cannot be sent, or the answer is not XML-RPC.
             FaultError: The server answered with a fault.
             UnreachableError: There is no answer.
             SilentPeerError: There is none, but there is a server.

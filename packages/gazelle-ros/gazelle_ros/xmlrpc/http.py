@@ -118,7 +118,7 @@ class MessageReader:
         """Raise an error early for anything but HTTP, such as a TCPROS header on this port."""
         start = bytes(self._buffer[:16]).lstrip(b"\r\n")
         if start and not start[:1].isalpha():
-            raise HttpError(400, "this is no HTTP")
+            raise HttpError(400, "this is not HTTP")
 
     def _parse_head(self, head: str) -> HttpMessage:
         lines = head.lstrip("\r\n").split("\r\n")

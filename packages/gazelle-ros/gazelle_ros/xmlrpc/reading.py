@@ -33,7 +33,7 @@ def read_call(document: bytes, limits: NetworkLimits = LIMITS) -> tuple[str, lis
     """Read the method's name and the parameters of a call.
 
     Raises:
-        MarshalError: It is no XML-RPC call, or exceeds a limit.
+        MarshalError: It is not an XML-RPC call, or exceeds a limit.
     """
     reader = _read(document, "methodCall", limits)
     if reader.method is None:
@@ -46,13 +46,13 @@ def read_response(document: bytes, limits: NetworkLimits = LIMITS) -> Any:
 
     Raises:
         FaultError: It is a fault.
-        MarshalError: It is no XML-RPC answer, or exceeds a limit.
+        MarshalError: It is not XML-RPC answer, or exceeds a limit.
     """
     reader = _read(document, "methodResponse", limits)
     if reader.fault is not _MISSING:
         fault = reader.fault
         if not isinstance(fault, dict):
-            raise MarshalError("the fault is no struct")
+            raise MarshalError("the fault is not a struct")
         code = fault.get("faultCode")
         raise FaultError(
             code if isinstance(code, int) else 0, str(fault.get("faultString", "unknown"))

@@ -221,7 +221,7 @@ def test_friction_is_a_cone_whatever_is_asked_for():
 
 def test_contacts_seen_ahead_are_refused_or_missed_aloud():
     world = scenes.world(scenes.ground(), scenes.ball(radius=0.005, pose=Pose(z=1.0)))
-    with pytest.warns(EngineWarning, match="on the way of a step"):
+    with pytest.warns(EngineWarning, match="computes no speculative contacts"):
         make_engine("mujoco-warp", world)
     asked = replace(world, physics=(replace(world.profile, speculative_contacts=True),))
     with pytest.raises(EngineError, match=r"'speculative_contacts'.*engine='mujoco'"):

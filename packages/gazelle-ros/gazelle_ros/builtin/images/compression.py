@@ -122,7 +122,7 @@ def _plain(image: sensor_msgs.msg.Image, encoding: Encoding) -> Pixels | None:
 
 
 def _holds(name: str, kind: np.dtype[Any], channels: int | None = None) -> bool:
-    """Return whether images of an encoding hold such values: so many channels, or colours."""
+    """Return whether images of an encoding have this number of channels, or are colours."""
     try:
         found = encoding_of(name)
     except CvBridgeError:

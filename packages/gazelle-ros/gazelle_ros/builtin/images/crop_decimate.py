@@ -91,7 +91,7 @@ def cropped(
 
     Raises:
         ValueError: The part has no pixels, or a mosaic is decimated by an odd number.
-        CvBridgeError: The data are no image of the encoding.
+        CvBridgeError: The data are not an image of the encoding.
     """
     mosaic = image.encoding.startswith("bayer")
     settings = _within(settings, image, step=_MOSAIC if mosaic else 1)

@@ -68,7 +68,7 @@ def mono_image(image: sensor_msgs.msg.Image) -> sensor_msgs.msg.Image:
 
     Raises:
         RosError: The encoding says nothing of colours.
-        CvBridgeError: The data are no image of the encoding.
+        CvBridgeError: The data are not an image of the encoding.
     """
     return image if encoding_of(image.encoding).order == "Y" else _as(image, "mono")
 
@@ -78,7 +78,7 @@ def colour_image(image: sensor_msgs.msg.Image) -> sensor_msgs.msg.Image:
 
     Raises:
         RosError: The encoding says nothing of colours.
-        CvBridgeError: The data are no image of the encoding.
+        CvBridgeError: The data are not an image of the encoding.
     """
     return image if encoding_of(image.encoding).order else _as(image, "bgr")
 

@@ -40,7 +40,7 @@ class NumberedNames:
             except (TypeError, ValueError):
                 continue
         raise RosError(
-            f"'{self.pattern}' is no pattern of a file's name",
+            f"'{self.pattern}' is not a pattern of a file's name",
             hint="such as frame%04i.jpg or left%04i.%s",
         )
 

@@ -82,7 +82,7 @@ class Rectifier:
 
         Raises:
             RosError: The camera is not calibrated, or its distortion model is unknown.
-            CvBridgeError: The data are no image of the encoding.
+            CvBridgeError: The data are not an image of the encoding.
         """
         key = _calibration(camera), image.width, image.height, interpolation
         if key != self._key:

@@ -89,7 +89,7 @@ def resized_image(settings: ResizeSettings, image: sensor_msgs.msg.Image) -> sen
 
     Raises:
         RosError: Nothing is left of it.
-        CvBridgeError: The data are no image of the encoding.
+        CvBridgeError: The data are not an image of the encoding.
     """
     bridge = CvBridge()
     height, width = settings.size(image.height, image.width)

@@ -108,7 +108,7 @@ class OrientationNode(CallbackWork, ABC):
     def __init__(self, node: Node, settings: OrientationSettings, *, use_mag: bool) -> None:
         super().__init__(node)
         if settings.constant_dt < 0.0:
-            raise RosError(f"constant_dt is at least 0 s, not {settings.constant_dt!r}")
+            raise RosError(f"constant_dt must be at least 0 s, not {settings.constant_dt!r}")
         if settings.publish_debug_topics:
             _LOG.warning("publish_debug_topics is not supported: there are no topics for debugging")
         self._common = settings
@@ -171,7 +171,7 @@ class OrientationNode(CallbackWork, ABC):
         now = self.node.clock.now()
         if self._now > now + self._common.time_jump_threshold * SECOND:
             _LOG.warning(
-                "time jumped back by %.1f s: the filter begins anew", (self._now - now) / SECOND
+                "time jumped back by %.1f s: the filter is reset", (self._now - now) / SECOND
             )
             self._stamp = None
             self.forget()
@@ -282,7 +282,7 @@ class ComplementaryNode(OrientationNode):
         self.settings = settings = settings_of(node, ComplementarySettings)
         for name in ("gain_acc", "gain_mag", "bias_alpha"):
             if not 0.0 <= getattr(settings, name) <= 1.0:
-                raise RosError(f"{name} is 0 to 1, not {getattr(settings, name)!r}")
+                raise RosError(f"{name} must be 0 to 1, not {getattr(settings, name)!r}")
         self.forget()
         super().__init__(node, settings, use_mag=settings.use_mag)
 

@@ -77,7 +77,7 @@ class LinuxJoystick:
             return []
         data = os.read(self._number, _EVENT.size * _MOST_EVENTS)
         if not data:
-            raise OSError("it sends nothing any more")
+            raise OSError("it sends no more data")
         return list(self._decoded(data))
 
     def _decoded(self, data: bytes) -> Iterator[JoystickEvent]:

@@ -85,7 +85,7 @@ class JoyNode:
                 if not warned:
                     warned = True
                     _LOG.error(
-                        "%s; it is looked for every second", _failure(self._device, error)
+                        "%s; retrying every second", _failure(self._device, error)
                     )  # no fault of the program
                 stop.wait(_RETRY_S)
 

@@ -69,7 +69,7 @@ def main(arguments: Sequence[str]) -> int:
 
 def _command(node: Node, name: str, parameters: Any) -> ButtonCommand:
     if not isinstance(parameters, Mapping):
-        raise RosError(f"it is a mapping of names to values, not {parameters!r:.60}")
+        raise RosError(f"it must be a mapping of names to values, not {parameters!r:.60}")
     kind = str(parameters.get("type", ""))
     if kind not in _KINDS:
         raise RosError(f"its type is '{kind}'", hint=did_you_mean(kind, _KINDS))
@@ -83,6 +83,6 @@ def _command(node: Node, name: str, parameters: Any) -> ButtonCommand:
         parameters.get("deadman_buttons", []) if kind == "topic" else parameters.get("buttons")
     )
     if not isinstance(buttons, list) or any(type(each) is not int for each in buttons):
-        raise RosError(f"its buttons are a list of numbers, not {buttons!r:.60}")
+        raise RosError(f"its buttons must be a list of numbers, not {buttons!r:.60}")
     match = ButtonMatch(buttons, bool(parameters.get("allow_multiple_commands", True)))
     return _KINDS[kind](node, name, match, parameters)

@@ -62,7 +62,7 @@ class TurboControl:
         self.linear = self.angular = settings.first_step
 
     def change(self, linear: int, angular: int) -> None:
-        """Change both by so many steps, as far as there are some."""
+        """Change both by a given number of steps, as far as there are some."""
         most = self._settings.steps
         self.linear = min(max(self.linear + linear, 1), most)
         self.angular = min(max(self.angular + angular, 1), most)

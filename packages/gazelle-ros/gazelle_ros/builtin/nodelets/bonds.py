@@ -82,7 +82,7 @@ class BondHolder:
                 return
         self._break(status.id)
 
-    def _beat(self) -> None:
+    def _send_heartbeats(self) -> None:
         """Send heartbeats, and break bonds whose other side is silent."""
         now = time.monotonic()
         with self._lock:
@@ -98,7 +98,7 @@ class BondHolder:
     def _wait(self) -> None:
         loop = self._node.loop
         if not self._node.closed:
-            loop.call_later(_PERIOD_S, lambda: loop.submit(self._beat))
+            loop.call_later(_PERIOD_S, lambda: loop.submit(self._send_heartbeats))
 
     def _break(self, name: str) -> None:
         with self._lock:

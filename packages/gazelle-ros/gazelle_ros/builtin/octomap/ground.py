@@ -36,7 +36,7 @@ class GroundFilter:
         if not (0.0 < self.distance < math.inf and 0.0 < self.plane_distance < math.inf):
             raise RosError("'distance' and 'plane_distance' of ground_filter are above 0")
         if not 0.0 < self.angle <= math.pi / 2.0:
-            raise RosError(f"'angle' of ground_filter is from 0 to pi/2, not {self.angle}")
+            raise RosError(f"'angle' of ground_filter must be from 0 to pi/2, not {self.angle}")
 
     def ground(self, points: Floats) -> Bools:
         """Return which points are ground, shape (n,).

@@ -52,7 +52,7 @@ def read_octomap(path: Path) -> OctomapFile:
     head, found, data = whole.partition(b"\ndata\n")
     lines = head.decode(errors="replace").splitlines()
     if not found or not lines[0].startswith("# Octomap OcTree"):
-        raise RosError("this is no file of OctoMap's OcTree", file=str(path))
+        raise RosError("this is not a file of OctoMap's OcTree", file=str(path))
     fields = dict(line.split(maxsplit=1) for line in lines[1:] if len(line.split()) > 1)
     resolution = _number(fields.get("res", ""))
     if fields.get("id") != _KIND or not 0.0 < resolution < np.inf:
@@ -120,7 +120,7 @@ def _cells(leaves: list[Leaf]) -> tuple[Ints64, NDArray[np.float32]]:
     )
     values = np.array([value for _, _, value in leaves], np.float32)
     if np.isnan(values).any():
-        raise ValueError("the map has likelihoods that are no numbers")
+        raise ValueError("the map has likelihoods that are not numbers")
     counts = np.array(sizes, np.int64)
     first = np.cumsum(counts) - counts
     within = np.arange(counts.sum()) - np.repeat(first, counts)

@@ -29,7 +29,7 @@ def main(arguments: Sequence[str]) -> int:
     path = Path(files[0])
     if path.suffix != _SUFFIXES[not full]:
         hint = f"{_SUFFIXES[True]} without -f, {_SUFFIXES[False]} with it"
-        raise RosError(f"'{path.name}' is no name of such a map", hint=hint)
+        raise RosError(f"'{path.name}' is not a name of such a map", hint=hint)
     with found.start() as node:
         name = "octomap_full" if full else "octomap_binary"
         node.wait_for_service(name)

@@ -175,7 +175,7 @@ class OctomapServer(StampedWork[StampedTransform]):
         chosen = kind & (heights + half > self.settings.occupancy_min_z)
         chosen &= heights - half < self.settings.occupancy_max_z
         if self.settings.filter_speckles:
-            chosen &= ~self.map.lonely()
+            chosen &= ~self.map.isolated()
         return chosen
 
     def _binary(self) -> octomap_msgs.msg.Octomap:

@@ -94,7 +94,7 @@ class OctomapSettings:
             ground=GroundFilter(**fields_of(GroundFilter, ground)),
         )
         if not found.resolution > 0.0:
-            raise RosError(f"'resolution' is positive, not {found.resolution}")
+            raise RosError(f"'resolution' must be positive, not {found.resolution}")
         return found
 
 
@@ -104,6 +104,6 @@ def _below(
     """Return the parameters of a namespace; unknown ones are warned of."""
     found = values.get(name, {})
     if not isinstance(found, Mapping):
-        raise RosError(f"'{name}' is a mapping of parameters, not {found!r}")
+        raise RosError(f"'{name}' must be a mapping of parameters, not {found!r}")
     warn_of_unknown(f"{where}/{name}", found, known)
     return found

@@ -121,8 +121,8 @@ class VoxelMap:
         cells = decode(self.codes[chosen]).astype(np.float64)
         return (cells - ORIGIN + 0.5) * self.resolution
 
-    def lonely(self) -> Bools:
-        """Return whether a cell is occupied, and none of the 26 around it; shape (n,)."""
+    def isolated(self) -> Bools:
+        """Return a mask of occupied cells without an occupied cell among the 26 around them, shape (n,)."""
         occupied = self.occupied
         full = self.codes[occupied]
         keys = decode(full)

@@ -25,13 +25,13 @@ class Keyboard:
     Afterwards the terminal is as it was. Ctrl-C and Ctrl-Z continue to do what they do.
 
     Raises:
-        RosError: Standard input is no terminal.
+        RosError: Standard input is not a terminal.
     """
 
     def __init__(self) -> None:
         if sys.stdin is None or not sys.stdin.isatty():
             raise RosError(
-                "keys are read from a terminal, and standard input is none",
+                "standard input is not a terminal, from which keys are read",
                 hint="start it in a terminal, not in the background and not in a pipe",
             )
         self._number = sys.stdin.fileno()

@@ -214,7 +214,7 @@ class Runner:
 
     def spin_once(self) -> None:
         """Check all nodes once."""
-        self._launch.look()
+        self._launch.poll()
 
     def spin(self) -> None:
         """Wait until the launch has ended."""
@@ -235,7 +235,7 @@ class Runner:
 
     def _watch(self) -> None:
         while not self._launch.ended.wait(_LOOK_S):
-            self._launch.look()
+            self._launch.poll()
             if self._auto_terminate and self._launch.idle and not self._launch.has_master:
                 self._launch.end()
 

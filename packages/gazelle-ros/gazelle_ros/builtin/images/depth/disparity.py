@@ -88,7 +88,7 @@ def disparities(
 
     Raises:
         ValueError: The image is no depth image, or the camera has no focal length.
-        CvBridgeError: The data are no image of the encoding.
+        CvBridgeError: The data are not an image of the encoding.
     """
     focal = float(right.P[0])
     if not focal > 0.0:
@@ -115,7 +115,7 @@ def foremost(image: sensor_msgs.msg.Image, distance: float) -> sensor_msgs.msg.I
         distance: In the unit of the image.
 
     Raises:
-        CvBridgeError: The data are no image of the encoding.
+        CvBridgeError: The data are not an image of the encoding.
     """
     pixels = CvBridge().imgmsg_to_cv2(image).copy()
     seen = np.nan_to_num(pixels, nan=0.0, posinf=0.0) > 0

@@ -24,7 +24,7 @@ def depths_of(image: sensor_msgs.msg.Image) -> Floats:
 
     Raises:
         ValueError: It is of another encoding.
-        CvBridgeError: The data are no image of the encoding.
+        CvBridgeError: The data are not an image of the encoding.
     """
     unit = _UNIT_M.get(image.encoding)
     if unit is None:
@@ -49,7 +49,7 @@ def converted(image: sensor_msgs.msg.Image) -> sensor_msgs.msg.Image:
 
     Raises:
         ValueError: It is of another encoding.
-        CvBridgeError: The data are no image of the encoding.
+        CvBridgeError: The data are not an image of the encoding.
     """
     target = MILLIMETRES if image.encoding == METRES else METRES
     like = sensor_msgs.msg.Image(header=image.header, encoding=target)

@@ -115,7 +115,7 @@ def cloud_of_depth(
 
     Raises:
         ValueError: The image is no depth image, or the camera has no focal length.
-        CvBridgeError: The data are no image of the encoding.
+        CvBridgeError: The data are not an image of the encoding.
     """
     return _cloud(depth, points_of(depths_of(depth), camera), None)
 
@@ -137,7 +137,7 @@ def coloured_cloud(
 
     Raises:
         ValueError: The images have different frames, or one is none of its kind.
-        CvBridgeError: The data are no image of the encoding.
+        CvBridgeError: The data are not an image of the encoding.
     """
     if depth.header.frame_id != colours.header.frame_id:
         raise ValueError(

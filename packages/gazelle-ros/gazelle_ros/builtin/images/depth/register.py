@@ -103,7 +103,7 @@ def registered(
 
     Raises:
         ValueError: The image is no depth image, or a camera has no focal length.
-        CvBridgeError: The data are no image of the encoding.
+        CvBridgeError: The data are not an image of the encoding.
     """
     model = PinholeCameraModel()
     model.fromCameraInfo(other)

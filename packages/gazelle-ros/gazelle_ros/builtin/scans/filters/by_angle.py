@@ -100,7 +100,7 @@ class LaserScanMaskFilter:
         for frame, mask in self.masks.items():
             if not isinstance(mask, list) or any(type(each) is not int for each in mask):
                 raise RosError(
-                    f"the mask of '{frame}' is a list of numbers of beams, not {mask!r:.60}"
+                    f"the mask of '{frame}' must be a list of numbers of beams, not {mask!r:.60}"
                 )
 
     def apply(self, scan: BeamScan) -> BeamScan:

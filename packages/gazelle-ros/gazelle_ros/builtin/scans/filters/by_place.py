@@ -81,7 +81,7 @@ class LaserScanPolygonFilter:
         )
         if not numbers or len(self.polygon) in {1, 2}:
             raise RosError(
-                f"the polygon is a list of three or more pairs of numbers, not {self.polygon!r:.60}"
+                f"the polygon must be a list of three or more pairs of numbers, not {self.polygon!r:.60}"
             )
 
     @property

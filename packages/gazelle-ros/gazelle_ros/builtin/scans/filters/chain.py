@@ -62,7 +62,9 @@ def scan_filter(where: str, entry: Any) -> ScanFilter:
         raise RosError(f"{where} has the unknown type '{type_}'", hint=did_you_mean(type_, known))
     values = entry.get("params") or {}
     if not isinstance(values, Mapping):
-        raise RosError(f"params of {where} are a mapping of names to values, not {values!r:.60}")
+        raise RosError(
+            f"params of {where} must be a mapping of names to values, not {values!r:.60}"
+        )
     known = [each.name for each in fields(kind) if each.init]
     warn_of_unknown(f"{where}/params", values, known)
     for name in getattr(kind, "required", ()):

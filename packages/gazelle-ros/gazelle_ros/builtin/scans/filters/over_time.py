@@ -53,7 +53,7 @@ class ChannelFilter:
             )
         count = value_of(entry.get("params") or {}, "number_of_observations", 0)
         if count < 1:
-            raise RosError(f"the number_of_observations of {kind} is at least 1, not {count}")
+            raise RosError(f"the number_of_observations of {kind} must be at least 1, not {count}")
         self._reduce = _KINDS[name]
         self._rows: deque[Floats] = deque(maxlen=count)
 
@@ -73,7 +73,7 @@ def channel_filters(entries: Any) -> list[ChannelFilter]:
     """
     if not isinstance(entries, list):
         raise RosError(
-            f"a chain of filters is a list of name, type and params, not {entries!r:.60}"
+            f"a chain of filters must be a list of name, type and params, not {entries!r:.60}"
         )
     return [ChannelFilter(each) for each in entries]
 
