@@ -178,6 +178,6 @@ class GoalSimulationTask(SimulationTask):
     def _check(self, method: str, found: Floats, shape: tuple[int, ...], space: str) -> None:
         if found.shape != shape:
             raise TaskError(
-                f"{method} returned an array of shape {found.shape}, and {space} wants {shape}",
+                f"{method} returned an array of shape {found.shape}, expected {shape} by {space}",
                 hint="expected a row per world, with an entry per bound of the space",
             )

@@ -439,10 +439,10 @@ def test_settings_come_from_parameters_and_words(graph):
         for words, said in (
             (["--prot", "1"], "not an option"),
             (["--port"], "without a value"),
-            (["--port", "x"], "wants a number"),
+            (["--port", "x"], "must be a number"),
             (["--authenticate"], "authenticated"),
             (["--bson_only_mode"], "BSON"),
-            (["--topics_glob", "/a"], "wants a list"),
+            (["--topics_glob", "/a"], "must be a list"),
             (["--certfile", "x"], "both"),
         ):
             with pytest.raises(RosError, match=said):

@@ -165,7 +165,7 @@ class RosApi(Closeable):
             value = json.loads(request.value)
         except ValueError:
             raise ServiceError(
-                f"the value of {request.name} is not valid JSON; a string wants quotes: "
+                f"the value of {request.name} is not valid JSON; a string needs quotes: "
                 f"{json.dumps(request.value[:40])}"
             ) from None
         self._node.set_param(request.name, value)

@@ -283,7 +283,7 @@ def _positive(message: OperationFields, name: str) -> int | None:
         return None
     value = message.integer(name)
     if value < 1:
-        raise RosError(f"{name} is {value}; it wants an int above zero")
+        raise RosError(f"{name} must be an int above zero, not {value}")
     return value
 
 
@@ -291,5 +291,5 @@ def _publishing(message: OperationFields) -> tuple[int, bool]:
     """Return queue size and latching of a publisher."""
     size = message.integer("queue_size", 100)
     if size < 1:
-        raise RosError(f"queue_size is {size}; it wants an int above zero")
+        raise RosError(f"queue_size must be an int above zero, not {size}")
     return size, message.flag("latch", default=False)

@@ -68,7 +68,7 @@ class BridgeSettings:
             object.__setattr__(self, each.name, value)
         object.__setattr__(self, "address", self.address or "0.0.0.0")  # noqa: S104
         if self.port > MAX_PORT:
-            raise RosError(f"port is {self.port}; it goes from 0 to {MAX_PORT}")
+            raise RosError(f"port must be from 0 to {MAX_PORT}, not {self.port}")
         if bool(self.certfile) != bool(self.keyfile):
             raise RosError("give both 'certfile' and 'keyfile', or neither")
 
@@ -149,14 +149,14 @@ def _number(name: str, value: Any) -> float:
     except (TypeError, ValueError, OverflowError):
         number = -1.0
     if isinstance(value, bool) or not 0.0 <= number <= LONGEST_WAIT:
-        raise RosError(f"{name} is {value!r:.60}; it wants a number from 0 to {LONGEST_WAIT:g}")
+        raise RosError(f"{name} must be a number from 0 to {LONGEST_WAIT:g}, not {value!r:.60}")
     return number
 
 
 def _integer(name: str, value: Any) -> int:
     number = _number(name, value)
     if number != int(number):
-        raise RosError(f"{name} is {value!r}; it wants an int")
+        raise RosError(f"{name} must be an int, not {value!r}")
     return int(number)
 
 
@@ -165,21 +165,21 @@ def _size(name: str, value: Any) -> int | None:
         return None
     size = _integer(name, value)
     if size < 1:
-        raise RosError(f"{name} is {value!r}; it wants an int above zero, or None")
+        raise RosError(f"{name} must be an int above zero, or None, not {value!r}")
     return size
 
 
 def _flag(name: str, value: Any) -> bool:
     text = str(value).lower()
     if text not in {"true", "false", "1", "0"}:
-        raise RosError(f"{name} is {value!r}; it wants true or false")
+        raise RosError(f"{name} must be true or false, not {value!r}")
     return text in {"true", "1"}
 
 
 def _text(name: str, value: Any) -> str:
     text = "" if value is None else str(value)
     if not can_be_written(text):
-        raise RosError(f"{name} is {value!r:.60}; it wants text of characters")
+        raise RosError(f"{name} must be a string, not {value!r:.60}")
     return text
 
 
@@ -189,10 +189,10 @@ def _patterns(name: str, value: Any) -> tuple[str, ...]:
         return ()
     if isinstance(value, str):
         if not (value.startswith("[") and value.endswith("]")):
-            raise RosError(f"{name} is {value!r}; it wants a list such as [/odom, /cmd_*]")
+            raise RosError(f"{name} must be a list such as [/odom, /cmd_*], not {value!r}")
         value = value[1:-1].split(",")
     if not isinstance(value, (list, tuple)):
-        raise RosError(f"{name} is {value!r}; it wants a list such as [/odom, /cmd_*]")
+        raise RosError(f"{name} must be a list such as [/odom, /cmd_*], not {value!r}")
     words = (str(each).strip().strip("'\"") for each in value)
     return tuple(word for word in words if word)
 
