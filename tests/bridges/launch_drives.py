@@ -32,6 +32,7 @@ class Drive:
         ahead: The goal, as the robot sees it before the drive [m].
         environment: Variables that the launch files read.
         begin: Pose in the map that a user gives in RViz, x and y [m] and heading [rad].
+        swapped: Whether the description swaps the wheels, so that the robot turns the other way.
     """
 
     name: str
@@ -41,6 +42,7 @@ class Drive:
     ahead: tuple[float, float] = (1.5, 0.3)
     environment: dict[str, str] = field(default_factory=dict)
     begin: tuple[float, float, float] | None = None
+    swapped: bool = False
 
 
 # Husky's and Jackal's descriptions include these whether they use them or not.
@@ -116,6 +118,8 @@ DRIVES = (
         ("gazebo_plugins multi_robot_scenario.launch",),
         "r1",
         velocity="/r1/cmd_vel",
+        ahead=(0.5, 1.2),  # the other robot stands a metre ahead
+        swapped=True,  # as in Gazebo since ROS Melodic
     ),
     Drive(
         "turtlebot_stage",
@@ -234,8 +238,11 @@ class Rider:
         assert client.wait_for_result(PATIENCE)
         return client.get_state() == GoalStatus.SUCCEEDED, client.get_goal_status_text()
 
-    def steer(self, goal, topic):
-        """Drive to a point with commands of velocity; return whether the robot came near it."""
+    def steer(self, goal, topic, turn=1.0):
+        """Drive to a point with commands of velocity; return whether the robot came near it.
+
+        Rates of turning are multiplied by `turn`.
+        """
         kind = load_message("geometry_msgs/Twist")
         commands = self.node.advertise(topic, kind)
         until(lambda: commands.has_subscribers, PATIENCE)
@@ -249,6 +256,7 @@ class Rider:
                 command.angular.z = bend * command.linear.x
             else:
                 command.angular.z = math.copysign(0.8, left)
+            command.angular.z *= turn
             commands.publish(command)
             self.clock.sleep(50_000_000)
         commands.publish(kind())
@@ -276,9 +284,10 @@ def ride(drive, corpus, paths, folder):
             rider.begin(drive.begin)
         goal, begun = rider.point(drive.ahead), rider.clock.now()
         try:
-            reached, said = (
-                rider.steer(goal, drive.velocity) if drive.velocity else rider.send(goal)
-            )
+            if drive.velocity:
+                reached, said = rider.steer(goal, drive.velocity, -1.0 if drive.swapped else 1.0)
+            else:
+                reached, said = rider.send(goal)
         except AssertionError:
             raise AssertionError("".join(each.said for each in launches)) from None
         seconds = (rider.clock.now() - begun) / 1e9

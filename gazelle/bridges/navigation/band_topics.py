@@ -8,13 +8,23 @@ import threading
 import numpy as np
 
 from gazelle.array_types import Floats
+from gazelle.bridges.navigation.band_markers import band_markers
 from gazelle.bridges.navigation.frames import GraphFrames
 from gazelle.bridges.navigation.messages import fill_pose, stamped, twist_message
 from gazelle.navigation.planners.planar import moved
 from gazelle.navigation.planners.teb import TebPlanner
 from gazelle.navigation.planners.teb_cost import Band
 from gazelle.navigation.planners.teb_obstacles import BandObstacle
-from gazelle_ros.msgs import costmap_converter, geometry_msgs, nav_msgs, teb_local_planner
+from gazelle.navigation.planners.teb_settings import TebSettings
+from gazelle_ros.builtin.tuned_settings import TunedSettings
+from gazelle_ros.msgs import (
+    costmap_converter,
+    geometry_msgs,
+    nav_msgs,
+    std_msgs,
+    teb_local_planner,
+    visualization_msgs,
+)
 from gazelle_ros.node import Node
 from gazelle_ros.time import Duration, Time
 
@@ -22,7 +32,9 @@ _LOG = logging.getLogger("gazelle.navigation")
 
 
 class BandTopics:
-    """Topics ``obstacles``, ``via_points``, ``teb_poses`` and ``teb_feedback`` below a planner's name.
+    """Topics ``obstacles``, ``via_points``, ``teb_poses``, ``teb_markers`` and ``teb_feedback``, and settings.
+
+    They stand below the planner's name. dynamic_reconfigure changes the settings that it does in the original.
 
     Args:
         node: On the graph.
@@ -39,14 +51,25 @@ class BandTopics:
         feedback = teb_local_planner.msg.FeedbackMsg
         self._poses = node.advertise(f"{name}/teb_poses", geometry_msgs.msg.PoseArray, queue_size=1)
         self._feedback = node.advertise(f"{name}/teb_feedback", feedback, queue_size=1)
+        marker = visualization_msgs.msg.Marker
+        self._markers = node.advertise(f"{name}/teb_markers", marker, queue_size=1000)
+        TunedSettings(node, planner.settings, self._tune, name)
         obstacles = costmap_converter.msg.ObstacleArrayMsg
         self._obstacles = obstacles()
         node.subscribe(f"{name}/obstacles", obstacles, self._receive_obstacles, 1)
         node.subscribe(f"{name}/via_points", nav_msgs.msg.Path, self._receive_vias, 1)
 
+    def _tune(self, settings: TebSettings) -> None:
+        with self._lock:
+            self._planner.configure(settings)
+
     def publish(self, now: int) -> None:
         """Publish the bands of the last cycle, of a time [ns]."""
         bands, frame = self._planner.search.bands, self._planner.costmap.frame
+        if self._markers.has_subscribers:
+            header = std_msgs.msg.Header(stamp=Time(nsecs=now), frame_id=frame)
+            for marker in band_markers(self._planner, header):
+                self._markers.publish(marker)
         if not bands:
             return
         if self._poses.has_subscribers:

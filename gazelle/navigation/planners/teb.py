@@ -56,6 +56,11 @@ class TebPlanner(PlanFollower):
         self.prune = True
         self._slow = 0
 
+    def configure(self, settings: TebSettings) -> None:
+        """Apply new settings while running."""
+        self.settings = settings
+        self.search.configure(settings)
+
     def command(self, pose: Pose2, velocity: Velocity, to_local: Pose2) -> Velocity | None:
         """Return the velocity at the begin of the best band; None if that hits something."""
         s = self.settings

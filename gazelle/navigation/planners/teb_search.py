@@ -58,6 +58,10 @@ class BandSearch:
         self._bands: list[Band] = []
         self._since_switch = math.inf
 
+    def configure(self, settings: TebSettings) -> None:
+        """Apply new settings while running."""
+        self._settings = settings
+
     @property
     def bands(self) -> list[Band]:
         """Bands of the last cycle, the chosen one first."""

@@ -13,6 +13,7 @@ import numpy as np
 from gazelle.array_types import Floats
 from gazelle.errors import Error, did_you_mean
 from gazelle_ros.base.parameter_values import settings_from, value_of
+from gazelle_ros.base.tuned_fields import tunable
 
 UNUSED: Final = frozenset(
     [
@@ -68,83 +69,87 @@ UNUSED: Final = frozenset(
 
 @dataclass(frozen=True, slots=True)
 class TebSettings:
-    """Parameters of ``teb_local_planner``; names and defaults are the original's."""
+    """Parameters of ``teb_local_planner``; names and defaults are the original's.
 
-    teb_autosize: bool = True
-    dt_ref: float = 0.3
-    dt_hysteresis: float = 0.1
+    Of those that dynamic_reconfigure changes, limits and defaults are of its server: as in the original it
+    sets them once at the start. Some differ from those of the class and of the documentation there.
+    """
+
+    teb_autosize: bool = tunable(True)
+    dt_ref: float = tunable(0.3, 0.01, 1.0)
+    dt_hysteresis: float = tunable(0.1, 0.002, 0.5)
     min_samples: int = 3
     max_samples: int = 500
-    global_plan_overwrite_orientation: bool = True
-    allow_init_with_backwards_motion: bool = False
-    global_plan_viapoint_sep: float = -1.0
-    max_global_plan_lookahead_dist: float = 1.0
+    global_plan_overwrite_orientation: bool = tunable(True)
+    allow_init_with_backwards_motion: bool = tunable(False)
+    global_plan_viapoint_sep: float = tunable(-0.1, -0.1, 5.0)
+    max_global_plan_lookahead_dist: float = tunable(3.0, 0.0, 50.0)
     global_plan_prune_distance: float = 1.0
-    force_reinit_new_goal_dist: float = 1.0
-    force_reinit_new_goal_angular: float = 0.5 * math.pi
-    feasibility_check_no_poses: int = 5
-    control_look_ahead_poses: int = 1
-    max_vel_x: float = 0.4
-    max_vel_x_backwards: float = 0.2
-    max_vel_y: float = 0.0
-    max_vel_trans: float = 0.0
-    max_vel_theta: float = 0.3
-    acc_lim_x: float = 0.5
-    acc_lim_y: float = 0.5
-    acc_lim_theta: float = 0.5
-    min_turning_radius: float = 0.0
-    wheelbase: float = 1.0
-    cmd_angle_instead_rotvel: bool = False
-    use_proportional_saturation: bool = False
-    xy_goal_tolerance: float = 0.2
-    yaw_goal_tolerance: float = 0.2
-    free_goal_vel: bool = False
-    trans_stopped_vel: float = 0.1
-    theta_stopped_vel: float = 0.1
-    min_obstacle_dist: float = 0.5
-    inflation_dist: float = 0.6
-    publish_feedback: bool = False
-    include_costmap_obstacles: bool = True
-    include_dynamic_obstacles: bool = True
-    dynamic_obstacle_inflation_dist: float = 0.6
-    no_inner_iterations: int = 5
-    no_outer_iterations: int = 4
-    optimization_activate: bool = True
-    penalty_epsilon: float = 0.1
-    weight_max_vel_x: float = 2.0
-    weight_max_vel_y: float = 2.0
-    weight_max_vel_theta: float = 1.0
-    weight_acc_lim_x: float = 1.0
-    weight_acc_lim_y: float = 1.0
-    weight_acc_lim_theta: float = 1.0
-    weight_kinematics_nh: float = 1000.0
-    weight_kinematics_forward_drive: float = 1.0
-    weight_kinematics_turning_radius: float = 1.0
-    weight_optimaltime: float = 1.0
-    weight_shortest_path: float = 0.0
-    weight_obstacle: float = 50.0
-    weight_inflation: float = 0.1
-    weight_dynamic_obstacle: float = 50.0
-    weight_dynamic_obstacle_inflation: float = 0.1
-    weight_viapoint: float = 1.0
-    weight_adapt_factor: float = 2.0
-    obstacle_cost_exponent: float = 1.0
+    force_reinit_new_goal_dist: float = tunable(1.0, 0.0, 10.0)
+    force_reinit_new_goal_angular: float = tunable(0.78, 0.0, 4.0)
+    feasibility_check_no_poses: int = tunable(5, -1, 50)
+    control_look_ahead_poses: int = tunable(1, 1, 100)
+    max_vel_x: float = tunable(0.4, 0.01, 100.0)
+    max_vel_x_backwards: float = tunable(0.2, 0.01, 100.0)
+    max_vel_y: float = tunable(0.0, 0.0, 100.0)
+    max_vel_trans: float = tunable(0.0, 0.0, 100.0)
+    max_vel_theta: float = tunable(0.3, 0.01, 100.0)
+    acc_lim_x: float = tunable(0.5, 0.01, 100.0)
+    acc_lim_y: float = tunable(0.5, 0.01, 100.0)
+    acc_lim_theta: float = tunable(0.5, 0.01, 100.0)
+    min_turning_radius: float = tunable(0.0, 0.0, 50.0)
+    wheelbase: float = tunable(1.0, -10.0, 10.0)
+    cmd_angle_instead_rotvel: bool = tunable(False)
+    use_proportional_saturation: bool = tunable(False)
+    xy_goal_tolerance: float = tunable(0.2, 0.001, 10.0)
+    yaw_goal_tolerance: float = tunable(0.1, 0.001, 3.2)
+    free_goal_vel: bool = tunable(False)
+    trans_stopped_vel: float = tunable(0.1, 0.0, math.inf)
+    theta_stopped_vel: float = tunable(0.1, 0.0, math.inf)
+    min_obstacle_dist: float = tunable(0.5, 0.0, 10.0)
+    inflation_dist: float = tunable(0.6, 0.0, 15.0)
+    publish_feedback: bool = tunable(False)
+    include_costmap_obstacles: bool = tunable(True)
+    include_dynamic_obstacles: bool = tunable(False)
+    dynamic_obstacle_inflation_dist: float = tunable(0.6, 0.0, 15.0)
+    no_inner_iterations: int = tunable(5, 1, 100)
+    no_outer_iterations: int = tunable(4, 1, 100)
+    optimization_activate: bool = tunable(True)
+    penalty_epsilon: float = tunable(0.05, 0.0, 1.0)
+    weight_max_vel_x: float = tunable(2.0, 0.0, 1000.0)
+    weight_max_vel_y: float = tunable(2.0, 0.0, 1000.0)
+    weight_max_vel_theta: float = tunable(1.0, 0.0, 1000.0)
+    weight_acc_lim_x: float = tunable(1.0, 0.0, 1000.0)
+    weight_acc_lim_y: float = tunable(1.0, 0.0, 1000.0)
+    weight_acc_lim_theta: float = tunable(1.0, 0.0, 1000.0)
+    weight_kinematics_nh: float = tunable(1000.0, 0.0, 10000.0)
+    weight_kinematics_forward_drive: float = tunable(1.0, 0.0, 10000.0)
+    weight_kinematics_turning_radius: float = tunable(1.0, 0.0, 1000.0)
+    weight_optimaltime: float = tunable(1.0, 0.0, 1000.0)
+    weight_shortest_path: float = tunable(0.0, 0.0, 100.0)
+    weight_obstacle: float = tunable(50.0, 0.0, 1000.0)
+    weight_inflation: float = tunable(0.1, 0.0, 10.0)
+    weight_dynamic_obstacle: float = tunable(50.0, 0.0, 1000.0)
+    weight_dynamic_obstacle_inflation: float = tunable(0.1, 0.0, 10.0)
+    weight_viapoint: float = tunable(1.0, 0.0, 1000.0)
+    weight_adapt_factor: float = tunable(2.0, 1.0, 100.0)
+    obstacle_cost_exponent: float = tunable(1.0, 0.01, 100.0)
     enable_homotopy_class_planning: bool = True
     simple_exploration: bool = False
-    max_number_classes: int = 5
-    selection_cost_hysteresis: float = 1.0
-    selection_prefer_initial_plan: float = 0.95
-    selection_obst_cost_scale: float = 100.0
-    selection_viapoint_cost_scale: float = 1.0
-    selection_alternative_time_cost: bool = False
-    switching_blocking_period: float = 0.0
+    max_number_classes: int = tunable(5, 1, 100)
+    selection_cost_hysteresis: float = tunable(1.0, 0.0, 2.0)
+    selection_prefer_initial_plan: float = tunable(0.95, 0.0, 1.0)
+    selection_obst_cost_scale: float = tunable(2.0, 0.0, 1000.0)
+    selection_viapoint_cost_scale: float = tunable(1.0, 0.0, 100.0)
+    selection_alternative_time_cost: bool = tunable(False)
+    switching_blocking_period: float = tunable(0.0, 0.0, 60.0)
     max_ratio_detours_duration_best_duration: float = 3.0
-    viapoints_all_candidates: bool = True
+    viapoints_all_candidates: bool = tunable(True)
     obstacle_keypoint_offset: float = 0.1
-    obstacle_heading_threshold: float = 0.45
-    roadmap_graph_no_samples: int = 15
-    roadmap_graph_area_width: float = 6.0
-    roadmap_graph_area_length_scale: float = 1.0
+    obstacle_heading_threshold: float = tunable(0.45, 0.0, 1.0)
+    roadmap_graph_no_samples: int = tunable(15, 1, 100)
+    roadmap_graph_area_width: float = tunable(5.0, 0.1, 20.0)
+    roadmap_graph_area_length_scale: float = tunable(1.0, 0.5, 2.0)
 
     def __post_init__(self) -> None:
         for name in ("dt_ref", "max_vel_x", "max_vel_theta", "acc_lim_x", "acc_lim_theta"):

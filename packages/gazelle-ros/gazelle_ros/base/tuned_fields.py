@@ -14,7 +14,7 @@ def tunable(default: Any, least: Any = "", most: Any = "", description: str = ""
         default: Its type is that of all values: bool, int, str or float.
         least: Smallest value, of a number.
         most: Largest value, of a number.
-        description: For people.
+        description: For people; the field's name in words if there is none.
     """
     if isinstance(default, bool):
         least, most = False, True
@@ -47,8 +47,10 @@ class Tunable:
 
 def tuned_fields(settings: Any) -> Mapping[str, Tunable]:
     """Return the fields of a dataclass that are `tunable`, by name."""
-    return {
-        each.name: Tunable(each.name, each.default, *each.metadata["tuned"])
-        for each in fields(settings)
-        if "tuned" in each.metadata
-    }
+    found = {}
+    for each in fields(settings):
+        if "tuned" in each.metadata:
+            least, most, description = each.metadata["tuned"]
+            text = description or each.name.replace("_", " ")
+            found[each.name] = Tunable(each.name, each.default, least, most, text)
+    return found
