@@ -131,6 +131,21 @@ DRIVES = (
             "TURTLEBOT_STAGE_WORLD_FILE": f"{_SIMULATOR}/turtlebot_stage/maps/stage/maze.world",
         },
     ),
+    Drive(
+        "ridgeback",
+        (
+            "ridgeback_gazebo ridgeback_world.launch",
+            "ridgeback_navigation odom_navigation_demo.launch",
+        ),
+        "ridgeback",
+        environment={"RIDGEBACK_FRONT_HOKUYO_LASER": "1"},
+    ),
+    Drive(
+        "dingo",
+        ("dingo_gazebo dingo_world.launch", "dingo_navigation odom_navigation_demo.launch"),
+        "dingo",
+        environment={"DINGO_LASER": "1", "DINGO_LASER_MODEL": "ust10"},
+    ),
     *(
         Drive(
             f"teb_local_planner_tutorials, {name}",
@@ -223,6 +238,8 @@ class Rider:
             return place and math.dist((place.x, place.y), pose[:2]) < 0.3
 
         until(used, PATIENCE)
+        # Transforms of the map are dated ahead: until then lookups lie between the old one and the new.
+        self.clock.sleep(2_000_000_000)
 
     def send(self, goal):
         """Send a point to move_base; return its outcome."""

@@ -1,7 +1,8 @@
 """Robots' own launch files, unchanged, bring up all their nodes, and the robots drive to a goal.
 
 ``GAZELLE_ROBOTS`` names a folder with checkouts of husky, jackal, jackal_simulator, turtlebot_apps,
-rosbot_description and navigation_tutorials. The rows of the table in docs/reference/navigation.md::
+rosbot_description, navigation_tutorials, ridgeback, ridgeback_simulator, dingo and dingo_simulator. The rows
+of the table in docs/reference/ros.md::
 
     GAZELLE_CORPUS=... GAZELLE_ROBOTS=... pytest -m slow -s tests/bridges/launch/test_drives.py
 """

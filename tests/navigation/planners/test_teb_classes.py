@@ -125,7 +125,14 @@ def test_detours_that_take_too_long_are_dropped():
 
 @pytest.mark.parametrize("include", [True, False])
 def test_a_band_keeps_away_from_where_an_obstacle_will_be(include):
-    teb = planner(OPEN, {"include_dynamic_obstacles": include, "selection_obst_cost_scale": 100.0})
+    teb = planner(
+        OPEN,
+        {
+            "include_dynamic_obstacles": include,
+            "penalty_epsilon": 0.1,
+            "roadmap_graph_area_width": 6.0,
+        },
+    )
     crossing = BandObstacle(np.array([[3.0, 1.0]]), 0.2, np.array([0.0, 0.4]))
     teb.obstacles = [crossing]
     for _ in range(4):
