@@ -164,7 +164,7 @@ def test_the_walker_shows_events_on_its_leds(drive, listen):
 
 def test_bumps_do_not_count_while_the_walker_is_disabled(drive):
     made, _ = drive(RandomWalker)
-    made.enabled = False
+    made._switch.on = False
     made.take(made.bumpers, LEFT, active=True)
     made.take(made.cliffs, LEFT, active=True)
     assert (made.bumpers, made.cliffs) == (set(), {LEFT})

@@ -99,6 +99,9 @@ _OWN = {
         BuiltinPackage("kobuki_bumper2pc", nodelets={
             "Bumper2PcNodelet": "gazelle_ros.builtin.kobuki.bumper_cloud:BumperCloud",
         }),
+        BuiltinPackage("kobuki_controller_tutorial", nodelets={
+            "BumpBlinkControllerNodelet": "gazelle_ros.builtin.kobuki.bump_blink:BumpBlink",
+        }),
         BuiltinPackage("kobuki_random_walker", nodelets={
             "RandomWalkerControllerNodelet": "gazelle_ros.builtin.kobuki.random_walker:RandomWalker",
         }),
@@ -143,6 +146,9 @@ _OWN = {
         BuiltinPackage("rosparam", {"rosparam": "gazelle_ros.builtin.commands:param"}),
         BuiltinPackage("teleop_twist_joy", {"teleop_node": "gazelle_ros.builtin.joysticks.teleop_twist:main"}),
         BuiltinPackage("teleop_twist_keyboard", dict.fromkeys(("teleop_twist_keyboard", "teleop_twist_keyboard.py"), "gazelle_ros.builtin.teleop.twist:main")),
+        BuiltinPackage("turtlebot_follower", nodelets={
+            "TurtlebotFollower": "gazelle_ros.builtin.follower:Follower",
+        }),
         BuiltinPackage("turtlebot3_teleop", {
             "turtlebot3_teleop_key": "gazelle_ros.builtin.teleop.turtlebot3:main",
         }, folder=_SHARE / "turtlebot3_teleop"),
@@ -175,6 +181,12 @@ _OWN = {
             "xacro.py": "gazelle_ros.builtin.xacro:main",
         }, folder=_SHARE / "xacro"),
         BuiltinPackage("yocs_cmd_vel_mux", nodelets=_CMD_VEL_MUX),
+        BuiltinPackage("yocs_diff_drive_pose_controller", nodelets={
+            "DiffDrivePoseControllerNodelet": "gazelle_ros.builtin.pose_controller:PoseController",
+        }),
+        BuiltinPackage("yocs_safety_controller", nodelets={
+            "SafetyControllerNodelet": "gazelle_ros.builtin.ranger_safety:RangerSafety",
+        }),
         BuiltinPackage("yocs_velocity_smoother", nodelets={
             "VelocitySmootherNodelet": "gazelle_ros.builtin.velocity_smoother:VelocitySmoother",
         }),

@@ -6,7 +6,8 @@ import threading
 from abc import ABC, abstractmethod
 
 from gazelle_ros.builtin.speeds import repeat
-from gazelle_ros.msgs import kobuki_msgs, std_msgs
+from gazelle_ros.builtin.switching import EnableSwitch
+from gazelle_ros.msgs import kobuki_msgs
 from gazelle_ros.node import Node
 
 _BUMPER, _CLIFF = kobuki_msgs.msg.BumperEvent, kobuki_msgs.msg.CliffEvent
@@ -24,7 +25,6 @@ class KobukiController(ABC):
         hertz: Rate of the work.
 
     Attributes:
-        enabled: Whether it works.
         bumpers: Numbers of the bumpers that are pressed.
         cliffs: Numbers of the sensors that see a cliff.
         wheels: Numbers of the wheels that have dropped.
@@ -32,18 +32,20 @@ class KobukiController(ABC):
 
     def __init__(self, node: Node, hertz: float) -> None:
         self.node = node
-        self.enabled = True
         self.bumpers: set[int] = set()
         self.cliffs: set[int] = set()
         self.wheels: set[int] = set()
         self._hertz = hertz
         self._lock = threading.RLock()
-        empty = std_msgs.msg.Empty
-        node.subscribe("~enable", empty, lambda _message: self._switch(enabled=True), _QUEUE)
-        node.subscribe("~disable", empty, lambda _message: self._switch(enabled=False), _QUEUE)
+        self._switch = EnableSwitch(node)
         node.subscribe("~events/bumper", _BUMPER, self._take_bumper, _QUEUE)
         node.subscribe("~events/cliff", _CLIFF, self._take_cliff, _QUEUE)
         node.subscribe("~events/wheel_drop", _WHEEL_DROP, self._take_wheel, _QUEUE)
+
+    @property
+    def enabled(self) -> bool:
+        """True while it works."""
+        return self._switch.on
 
     def run(self, stop: threading.Event) -> None:
         """Run until shutdown."""
@@ -75,10 +77,6 @@ class KobukiController(ABC):
     @abstractmethod
     def on_event(self, sensors: set[int], before: frozenset[int], *, active: bool) -> None:
         """Handle an event of which the sensors are up to date."""
-
-    def _switch(self, *, enabled: bool) -> None:
-        with self._lock:
-            self.enabled = enabled
 
     def _take_bumper(self, message: kobuki_msgs.msg.BumperEvent) -> None:
         self.take(self.bumpers, message.bumper, active=message.state == _BUMPER.PRESSED)
