@@ -491,12 +491,19 @@ def test_a_mapping_node_publishes_a_map_and_its_frame(room, node, values, walls)
 
 def test_hector_mapping_is_reset_paused_and_put_elsewhere(room):
     hector = room.make(
-        "/hector_mapping", HectorNode, {"base_frame": "base_footprint", "map_size": 256}
+        "/hector_mapping",
+        HectorNode,
+        {"base_frame": "base_footprint", "map_size": 256, "pub_odometry": True},
     )
     room.nodes.append(hector._node)
-    poses = []
+    poses, odometry = [], []
+    room.node.subscribe("/scanmatch_odom", load_message("nav_msgs/Odometry"), odometry.append)
     room.node.subscribe("/slam_out_pose", load_message("geometry_msgs/PoseStamped"), poses.append)
-    spin_amcl(room, hector, lambda: poses)
+    spin_amcl(room, hector, lambda: poses and odometry)
+    assert odometry[0].child_frame_id == "base_footprint"
+    assert odometry[0].pose.pose == next(
+        each.pose for each in poses if each.header.stamp == odometry[0].header.stamp
+    )
     assert poses[0].header.frame_id == "map"
     assert (hector.drawn().data != -1).any()
     switch = load_service("std_srvs/SetBool")
@@ -510,6 +517,12 @@ def test_hector_mapping_is_reset_paused_and_put_elsewhere(room):
     message.pose.pose.position.x = 1.5
     hector._begin(message)
     assert hector._start == pytest.approx((1.5, 0.0, 0.0))
+    again = load_service("hector_mapping/ResetMapping")
+    request = again._request_class()
+    request.initial_pose.position.y = request.initial_pose.orientation.w = 1.0
+    room.node.client("/restart_mapping_with_new_pose", again).call(request, 30.0)
+    assert not hector._paused
+    assert hector._start == pytest.approx((0.0, 1.0, 0.0))
 
 
 # What is missing -------------------------------------------------------------------------

@@ -66,7 +66,7 @@ class Replay:
         until(lambda: self.filter.frames.tree.has(child))
 
     def play(self, messages):
-        """Feed all messages, and estimate at the rate of the filter."""
+        """Publish all messages, and estimate at the rate of the filter."""
         sent, due = 0, None
         for topic, message, stamp in messages:
             now = stamp.to_nsec()

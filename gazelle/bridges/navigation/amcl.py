@@ -25,7 +25,7 @@ from gazelle.navigation.localization.odometry_models import MODELS
 from gazelle.navigation.localization.settings import LASER_MODELS
 from gazelle.navigation.planners.planar import between, composed
 from gazelle.simulation import Tunable
-from gazelle_ros.base.parameter_values import value_of
+from gazelle_ros.base.parameter_values import value_of, warn_of_unknown
 from gazelle_ros.base.real_numbers import finite
 from gazelle_ros.builtin.arguments import run_node
 from gazelle_ros.builtin.parameters import private_values
@@ -39,6 +39,18 @@ from gazelle_ros.tf.scan_queue import ScanQueue
 from gazelle_ros.time import Time
 
 _LOOK_S = 0.2
+_OTHERS = (
+    "odom_frame_id", "base_frame_id", "global_frame_id", "transform_tolerance", "tf_broadcast",
+    "use_map_topic", "first_map_only", "save_pose_rate", "tf_prefix", "initial_pose_x", "initial_pose_y",
+    "initial_pose_a", "initial_cov_xx", "initial_cov_yy", "initial_cov_aa",
+    "force_update_after_initialpose", "force_update_after_set_map", "beam_skip_error_threshold_",
+)  # fmt: skip
+"""Parameters that are not part of `AmclSettings`."""
+_UNUSED = (
+    "gui_publish_rate", "bag_scan_period", "std_warn_level_x", "std_warn_level_y", "std_warn_level_yaw",
+    "restore_defaults",
+)  # fmt: skip
+"""Parameters of the original that change nothing here."""
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -60,6 +72,8 @@ class AmclNode:
         self._node = node
         self._values = private_values(node)
         self.settings = AmclSettings.read(self._values)
+        own = [each.name for each in dataclasses.fields(AmclSettings)]
+        warn_of_unknown(node.resolve("~"), self._values, [*own, *_OTHERS, *_UNUSED])
         self._odom = value_of(self._values, "odom_frame_id", "odom").strip("/")
         self._base = value_of(self._values, "base_frame_id", "base_link").strip("/")
         self._whole = value_of(self._values, "global_frame_id", "map").strip("/")
@@ -184,6 +198,8 @@ class AmclNode:
             now = self.frames.pose(self._odom, self._base)
             moved = between(then, now) if then is not None and now is not None else (0.0, 0.0, 0.0)
             localizer.begin(composed(pose, moved), cov)
+            if value_of(self._values, "force_update_after_initialpose", False):
+                localizer.force_update()
 
         self._do(begin)
 
@@ -210,6 +226,8 @@ class AmclNode:
     def _set_map(self, request: nav_msgs.srv.SetMapRequest) -> list[Any]:
         self._take_map(grid_of_message(request.map))
         self._begin(request.initial_pose)
+        if value_of(self._values, "force_update_after_set_map", False):
+            self._do(Localizer.force_update)
         return [True]
 
     def _find(self, message: sensor_msgs.msg.LaserScan) -> tuple[StampedTransform, Pose2] | None:

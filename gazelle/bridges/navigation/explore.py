@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import threading
 from collections.abc import Sequence
+from dataclasses import fields
 from typing import Any
 
 import numpy as np
@@ -18,7 +19,7 @@ from gazelle.navigation.costmap.values import LETHAL, NO_INFORMATION
 from gazelle.navigation.exploration import Explorer, ExploreSettings, Place
 from gazelle.navigation.frontiers import Frontier, find_frontiers
 from gazelle_ros.actions import GoalStatus, SimpleActionClient
-from gazelle_ros.base.parameter_values import value_of
+from gazelle_ros.base.parameter_values import value_of, warn_of_unknown
 from gazelle_ros.builtin.arguments import run_node
 from gazelle_ros.builtin.parameters import private_values
 from gazelle_ros.clock import SECOND, Rate
@@ -27,6 +28,9 @@ from gazelle_ros.node import Node
 from gazelle_ros.time import Time
 
 _LOG = logging.getLogger(__name__)
+_OTHERS = (
+    "costmap_topic", "costmap_updates_topic", "robot_base_frame", "transform_tolerance", "visualize",
+)  # fmt: skip
 _POINTS, _ADD, _DELETE_ALL = 8, 0, 3
 
 
@@ -51,6 +55,8 @@ class ExploreNode:
     def __init__(self, node: Node) -> None:
         values = private_values(node)
         self.settings = ExploreSettings.read(values)
+        own = [each.name for each in fields(ExploreSettings)]
+        warn_of_unknown(node.resolve("~"), values, [*own, *_OTHERS])
         self.finished = False
         self._node = node
         self._lock = threading.Lock()

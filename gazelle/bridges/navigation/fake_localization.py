@@ -10,7 +10,7 @@ from gazelle.bridges.conversions import pose_message, pose_of_message, pose_of_t
 from gazelle.bridges.navigation.diagnosis import StartDiagnosis
 from gazelle.bridges.navigation.frames import GraphFrames, missing_links
 from gazelle.description import Pose
-from gazelle_ros.base.parameter_values import value_of
+from gazelle_ros.base.parameter_values import value_of, warn_of_unknown
 from gazelle_ros.builtin.arguments import run_node
 from gazelle_ros.builtin.parameters import private_values
 from gazelle_ros.clock import SECOND
@@ -20,6 +20,11 @@ from gazelle_ros.tf import StampedTransform
 from gazelle_ros.tf.scan_queue import ScanQueue
 
 _LOG = logging.getLogger(__name__)
+
+_PARAMETERS = (
+    "odom_frame_id", "base_frame_id", "global_frame_id", "transform_tolerance", "delta_x", "delta_y",
+    "delta_yaw", "tf_prefix",
+)  # fmt: skip
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -39,6 +44,7 @@ class FakeLocalizationNode:
 
     def __init__(self, node: Node) -> None:
         values = private_values(node)
+        warn_of_unknown(node.resolve("~"), values, _PARAMETERS)
         self._node = node
         self._odom = value_of(values, "odom_frame_id", "odom").strip("/")
         self._base = value_of(values, "base_frame_id", "base_link").strip("/")

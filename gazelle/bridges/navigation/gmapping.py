@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import fields
 
 from gazelle.array_types import Floats
 from gazelle.bridges.navigation.mapping_node import MappingNode
@@ -15,6 +16,10 @@ from gazelle_ros.builtin.parameters import private_values
 from gazelle_ros.clock import SECOND
 from gazelle_ros.msgs import sensor_msgs, std_msgs
 from gazelle_ros.node import Node
+
+_OTHERS = ("seed", "transform_publish_period", "map_update_interval", "tf_delay")
+_UNUSED = ("llsamplerange", "llsamplestep", "lasamplerange", "lasamplestep", "inverted_laser")
+"""Parameters of the original that change nothing here."""
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -38,7 +43,8 @@ class GmappingNode(MappingNode):
         period = value_of(values, "transform_publish_period", 0.05)
         interval = value_of(values, "map_update_interval", 5.0)
         ahead = value_of(values, "tf_delay", period)
-        super().__init__(node, "base_link", "scan", interval, period, ahead)
+        known = [*(each.name for each in fields(GmappingSettings)), *_OTHERS, *_UNUSED]
+        super().__init__(node, "base_link", "scan", interval, period, ahead, known)
         self._entropies = node.advertise("~entropy", std_msgs.msg.Float64, latch=True)
 
     def place(self) -> Pose2 | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import fields
 
 import numpy as np
 
@@ -16,6 +17,19 @@ from gazelle_ros.builtin.arguments import run_node
 from gazelle_ros.builtin.parameters import private_values
 from gazelle_ros.msgs import sensor_msgs
 from gazelle_ros.node import Node
+
+_OTHERS = ("transform_publish_period", "map_update_interval", "transform_tolerance", "delta")
+_UNUSED = (
+    "use_scan_barycenter", "minimum_time_interval", "link_match_minimum_response_fine",
+    "link_scan_maximum_distance", "loop_match_maximum_variance_coarse",
+    "loop_match_minimum_response_coarse", "correlation_search_space_dimension",
+    "correlation_search_space_resolution", "correlation_search_space_smear_deviation",
+    "loop_search_space_dimension", "loop_search_space_resolution",
+    "loop_search_space_smear_deviation", "distance_variance_penalty", "angle_variance_penalty",
+    "fine_search_angle_offset", "coarse_search_angle_offset", "coarse_angle_resolution",
+    "minimum_angle_penalty", "minimum_distance_penalty", "use_response_expansion",
+)  # fmt: skip
+"""Parameters of the original that change nothing here."""
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -39,7 +53,8 @@ class KartoNode(MappingNode):
         period = value_of(values, "transform_publish_period", 0.05)
         interval = value_of(values, "map_update_interval", 5.0)
         ahead = value_of(values, "transform_tolerance", 0.0)
-        super().__init__(node, "base_link", "scan", interval, period, ahead)
+        known = [*(each.name for each in fields(KartoSettings)), *_OTHERS, *_UNUSED]
+        super().__init__(node, "base_link", "scan", interval, period, ahead, known)
 
     def place(self) -> Pose2 | None:
         """Return the pose of the odometry frame on the map."""

@@ -12,7 +12,9 @@ from gazelle.description.occupancy import OccupancyMap
 from gazelle.errors import Error, FormatError, ResolveError, RosError
 from gazelle.formats.occupancy import MapSettings, cells, load_map
 from gazelle.formats.picture import read_picture
+from gazelle_ros.base.parameter_values import warn_of_unknown
 from gazelle_ros.builtin.arguments import parse_arguments, spin
+from gazelle_ros.builtin.parameters import private_values
 from gazelle_ros.msgs import nav_msgs
 from gazelle_ros.node import Node
 
@@ -65,7 +67,9 @@ class MapService:
     def __init__(self, node: Node, grid: OccupancyMap) -> None:
         self._node = node
         self._lock = threading.Lock()
-        self._frame = str(node.get_param("~frame_id", "map"))
+        values = private_values(node)
+        warn_of_unknown(node.resolve("~"), values, ["frame_id"])
+        self._frame = str(values.get("frame_id", "map"))
         kind, info = nav_msgs.msg.OccupancyGrid, nav_msgs.msg.MapMetaData
         self._maps = node.advertise("map", kind, queue_size=1, latch=True)
         self._infos = node.advertise("map_metadata", info, queue_size=1, latch=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from abc import ABC, abstractmethod
+from collections.abc import Collection
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,7 @@ from gazelle.bridges.navigation.map_messages import grid_message
 from gazelle.bridges.navigation.messages import is_upside_down
 from gazelle.description.occupancy import OccupancyMap
 from gazelle.navigation.following import Pose2
-from gazelle_ros.base.parameter_values import value_of
+from gazelle_ros.base.parameter_values import value_of, warn_of_unknown
 from gazelle_ros.builtin.parameters import private_values
 from gazelle_ros.builtin.scans.points import beam_angles
 from gazelle_ros.clock import SECOND
@@ -23,6 +24,8 @@ from gazelle_ros.msgs import nav_msgs, sensor_msgs
 from gazelle_ros.node import Node
 from gazelle_ros.tf import StampedTransform
 from gazelle_ros.tf.scan_queue import ScanQueue
+
+_PARAMETERS = ("odom_frame", "base_frame", "map_frame", "throttle_scans", "tf_prefix")
 
 
 class MappingNode(ABC):
@@ -35,13 +38,22 @@ class MappingNode(ABC):
         interval: Between two maps [s].
         period: Between two transforms [s]; none if it is 0.
         ahead: Time by which transforms are dated ahead [s].
+        known: Parameters that are read elsewhere; others are warned of.
     """
 
     def __init__(
-        self, node: Node, base: str, scans: str, interval: float, period: float, ahead: float
+        self,
+        node: Node,
+        base: str,
+        scans: str,
+        interval: float,
+        period: float,
+        ahead: float,
+        known: Collection[str],
     ) -> None:
         self._node = node
         self._values = private_values(node)
+        warn_of_unknown(node.resolve("~"), self._values, {*_PARAMETERS, *known})
         self._odom = value_of(self._values, "odom_frame", "odom").strip("/")
         self._base = value_of(self._values, "base_frame", base).strip("/")
         self._whole = value_of(self._values, "map_frame", "map").strip("/")

@@ -65,6 +65,10 @@ class AmclSettings:
         Raises:
             Error: One is of the wrong kind, or a model is unknown.
         """
+        # The original has this name with a dash at its end, too, which goes before the other one.
+        name = "beam_skip_error_threshold"
+        if f"{name}_" in values:
+            values = {**values, name: values[f"{name}_"]}
         return cls(**fields_of(cls, values))
 
     def __post_init__(self) -> None:

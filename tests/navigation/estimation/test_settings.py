@@ -99,12 +99,3 @@ def test_doubtful_parameters_are_logged(values, text, caplog):
 def test_wrong_parameters_are_errors(values, text):
     with pytest.raises(Error, match=text):
         FilterSettings.read(values)
-
-
-def test_numbers_that_yaml_reads_as_text_are_numbers():
-    """As in the files of robot_localization: 1e-9 has no point, and is a text for YAML 1.1."""
-    found = FilterSettings.read({"initial_estimate_covariance": ["1e-9", *[0] * 223, "2e-3"]})
-    assert found.initial_covariance[0, 0] == 1e-9
-    assert found.initial_covariance[14, 14] == 2e-3
-    with pytest.raises(Error, match="a list of 225 numbers"):
-        FilterSettings.read({"process_noise_covariance": ["one", *[0] * 224]})

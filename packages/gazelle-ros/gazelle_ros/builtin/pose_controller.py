@@ -125,7 +125,7 @@ class PoseController:
     """Commands on ``~command_velocity`` that bring the robot to the pose of a frame.
 
     ``~enable`` names another frame, or none for the same; ``~control_max_vel`` changes the greatest speed.
-    ``~pose_reached`` tells once that the pose is reached.
+    ``~pose_reached`` reports once that the pose is reached.
 
     Args:
         node: On the graph.

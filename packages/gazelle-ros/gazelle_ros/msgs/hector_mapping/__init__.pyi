@@ -1,0 +1,2 @@
+# Written by tools/message_stubs.py from the bundled definitions; not to be edited.
+from . import srv as srv
