@@ -35,10 +35,11 @@ def test_foreign_names_are_left_alone():
     subprocess.run([sys.executable, "-c", code], check=True)
 
 
-def test_packages_on_the_path_can_be_imported(tmp_path, monkeypatch):
-    (tmp_path / "my_msgs" / "msg").mkdir(parents=True)
+@pytest.mark.parametrize("folder", ["msg", "msg/generated/arm"])
+def test_packages_on_the_path_can_be_imported(tmp_path, monkeypatch, folder):
+    (tmp_path / "my_msgs" / folder).mkdir(parents=True)
     (tmp_path / "my_msgs" / "package.xml").write_text("<package><name>my_msgs</name></package>")
-    (tmp_path / "my_msgs" / "msg" / "Ping.msg").write_text("int32 count\n")
+    (tmp_path / "my_msgs" / folder / "Ping.msg").write_text("int32 count\n")
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path))
     from gazelle_ros.msgs import my_msgs
 

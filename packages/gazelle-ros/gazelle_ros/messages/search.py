@@ -49,10 +49,13 @@ def forget() -> None:
 
 
 def read_definitions(folder: Path) -> PackageDefinitions:
-    """Read all definitions in a package's folder; a malformed action is left out, and named."""
+    """Read all definitions in a package's folders, ``msg`` and so on, and in folders below.
+
+    A malformed action is left out, and named.
+    """
     found = PackageDefinitions()
     for name, kind in _FOLDERS:
-        for file in sorted((folder / name).glob(f"*.{kind}")):
+        for file in sorted((folder / name).rglob(f"*.{kind}")):
             text = file.read_text(encoding="utf-8", errors="replace").replace("\r\n", "\n")
             try:
                 found.add(kind, file.stem, Definition(text, str(file)))
