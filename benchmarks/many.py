@@ -215,7 +215,7 @@ def running(count: int, case: Case, how: str) -> gazelle.Simulation:
         for unit in robot.sensors.values():
             changed: Any = unit
             if how == "alone":
-                changed.kind = lambda: None
+                changed.system = lambda: None
             if not case.asleep:
                 unit.latest()
         for output in robot.outputs.values() if case.heard else ():

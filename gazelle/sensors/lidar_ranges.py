@@ -160,7 +160,7 @@ class LidarSystem(System):
     def update(self, first: int, last: int, time: int) -> None:
         """Measure with the lidars first to last."""
         count = self.ranges.shape[1]
-        some = max(1, AT_ONCE // count)
+        some = max(self.rows, AT_ONCE // count)  # of a world, where it is now is computed once
         begin = first
         while begin < last:
             end = min(begin + some, last)
