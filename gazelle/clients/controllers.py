@@ -171,15 +171,15 @@ class Controllers(Closeable):
         Raises:
             ClientError: One is invalid; what this call has loaded is unloaded again.
         """
-        wanted, before = _several(names), self.states()
+        requested, before = _several(names), self.states()
         loaded: list[str] = []
         try:
-            for name in wanted:
+            for name in requested:
                 if name not in before:
                     self.load(name)
                     loaded.append(name)
             if not stopped:
-                self.switch(start=[name for name in wanted if before.get(name) != "running"])
+                self.switch(start=[name for name in requested if before.get(name) != "running"])
         except ClientError:
             self.unload(reversed(loaded))
             raise
@@ -190,9 +190,9 @@ class Controllers(Closeable):
         Raises:
             ClientError: One is invalid; none is unloaded if one does not stop.
         """
-        wanted, before = _several(names), self.states()
-        self.stop([name for name in wanted if before.get(name) == "running"])
-        self.unload(reversed(wanted))
+        requested, before = _several(names), self.states()
+        self.stop([name for name in requested if before.get(name) == "running"])
+        self.unload(reversed(requested))
 
     def reset(self, names: Names) -> None:
         """Stop those that run and start all again.
@@ -200,9 +200,9 @@ class Controllers(Closeable):
         Raises:
             ClientError: As ``switch``.
         """
-        wanted, before = _several(names), self.states()
-        self.stop([name for name in wanted if before.get(name) == "running"])
-        self.start(wanted)
+        requested, before = _several(names), self.states()
+        self.stop([name for name in requested if before.get(name) == "running"])
+        self.start(requested)
 
     def reload_libraries(self, *, force_kill: bool = False) -> None:
         """Find the types of controllers again.
@@ -237,7 +237,7 @@ class Controllers(Closeable):
 
     def _refused(self, service: str, name: str, why: str) -> ClientError:
         whom = f" '{name}'" if name else ""
-        return ClientError(f"{self._caller.namespace}/{service} failed{whom}: {why}")
+        return ClientError(f"{self._caller.namespace}/{service} refused{whom}: {why}")
 
 
 def _several(names: Names) -> list[str]:

@@ -88,14 +88,14 @@ def _order(transmission: Transmission, roles: Sequence[str], what: str, width: i
     """Return the indices of the first and the second joint or actuator in the file."""
     if width == 1 or not any(roles):
         return [*range(width)]
-    wanted = [f"{what}{number}" for number in range(1, width + 1)]
-    if sorted(roles) != wanted:
+    expected = [f"{what}{number}" for number in range(1, width + 1)]
+    if sorted(roles) != expected:
         raise ControlError(
-            f"the roles of transmission '{transmission.name}' must be {' and '.join(wanted)}, not "
+            f"the roles of transmission '{transmission.name}' must be {' and '.join(expected)}, not "
             f"{', '.join(repr(each) for each in roles)}",
             source=transmission.source,
         )
-    return [list(roles).index(each) for each in wanted]
+    return [list(roles).index(each) for each in expected]
 
 
 class ActuatorStateInterface(HardwareInterface):

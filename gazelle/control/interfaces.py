@@ -157,13 +157,13 @@ class JointCommandInterface(HardwareInterface):
         super().__init__(name, names, claims=True)
         self._states = states
         nworld = len(states.position)
-        wanted = COMMAND_FIELDS.get(name) if fields is None else fields
-        if wanted is None:
+        selected = COMMAND_FIELDS.get(name) if fields is None else fields
+        if selected is None:
             raise ControlError(
                 f"'{name}' is not an interface of commands",
                 hint=did_you_mean(name, COMMAND_FIELDS) or "say what its fields are",
             )
-        self.commands = {field: np.zeros((nworld, len(self.resources))) for field in wanted}
+        self.commands = {field: np.zeros((nworld, len(self.resources))) for field in selected}
 
     def handles(self, names: Sequence[str]) -> JointHandles:
         """Return handles to read and command some joints."""

@@ -221,17 +221,17 @@ class TuningPort:
         """Current values."""
         return self._call(lambda: dict(self._values()))
 
-    def send(self, /, **wanted: Any) -> dict[str, bool | float]:
+    def send(self, /, **requested: Any) -> dict[str, bool | float]:
         """Set some values, each to the nearest allowed one; returns the values in effect.
 
         Raises:
             ControlError: There is no such value.
         """
-        for name in wanted:
+        for name in requested:
             if name not in self.tunables:
                 raise ControlError(
                     f"'{self.topic}' has no '{name}'", hint=did_you_mean(name, self.tunables)
                 )
-        clamped = {name: self.tunables[name].clamp(value) for name, value in wanted.items()}
+        clamped = {name: self.tunables[name].clamp(value) for name, value in requested.items()}
         self._call(lambda: self._change({**self._values(), **clamped}))
         return self.values

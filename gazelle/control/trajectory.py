@@ -213,14 +213,14 @@ class TrajectoryTable:
         shift = wrap_offset(state[0], np.broadcast_to(points.positions[0], state[0].shape))
         shift = np.where(self._endless[joints], shift, 0.0)[:, :, None]
         ends = tuple(each.T for each in (points.positions, points.velocities, points.accelerations))
-        wanted = (ends[0] + shift, *(np.broadcast_to(e, (len(rows), *e.shape)) for e in ends[1:]))
+        desired = (ends[0] + shift, *(np.broadcast_to(e, (len(rows), *e.shape)) for e in ends[1:]))
         starts = tuple(
             np.concatenate((first[:, :, None], later[:, :, :-1]), axis=2)
-            for first, later in zip(state, wanted, strict=True)
+            for first, later in zip(state, desired, strict=True)
         )
         times = np.concatenate(([change], points.times[:-1]))
         lasts = np.maximum(points.times - times, 0.0)
-        polynomials = coefficients(lasts, _three(starts), _three(wanted))
+        polynomials = coefficients(lasts, _three(starts), _three(desired))
         self._join(points, _New(times, lasts, polynomials, goal), now, change, rows)
 
     def _join(self, points: Waypoints, new: _New, now: float, change: float, rows: Worlds) -> None:

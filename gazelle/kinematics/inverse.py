@@ -164,15 +164,15 @@ class InverseKinematics:
 
     def _checked_request(self, poses: ArrayLike, states: ArrayLike | None) -> tuple[Floats, Floats]:
         """Return poses as rows of shape (n, 12) and states of shape (n, variables)."""
-        wanted = np.asarray(poses, np.float64)
-        if wanted.ndim != 3 or wanted.shape[1:] != (4, 4):
-            raise PlanningError(f"poses have the shape (n, 4, 4), not {wanted.shape}")
-        count = len(wanted)
+        target_poses = np.asarray(poses, np.float64)
+        if target_poses.ndim != 3 or target_poses.shape[1:] != (4, 4):
+            raise PlanningError(f"poses have the shape (n, 4, 4), not {target_poses.shape}")
+        count = len(target_poses)
         starts = self.robot.zero() if states is None else np.asarray(states, np.float64)
         shape = (count, len(self.robot.variables))
         if starts.shape not in {shape, shape[1:]}:
             raise PlanningError(f"states have the shape {shape}, not {starts.shape}")
-        targets = np.concatenate((wanted[:, :3, :3].reshape(count, 9), wanted[:, :3, 3]), axis=1)
+        targets = np.concatenate((target_poses[:, :3, :3].reshape(count, 9), target_poses[:, :3, 3]), axis=1)
         return targets, np.broadcast_to(starts, shape)
 
     def _solve_one(

@@ -129,7 +129,7 @@ class DroneLaw:
         """Return roll and pitch [rad], (nworld, 2), and upward velocity [m/s], (nworld, 1)."""
         pids, step = self.pids, now.step
         velocity, change = rotate(back, now.motion.linear), rotate(back, now.acceleration)
-        wanted = np.where(orders.flying[:, None], orders.linear[:, :2], orders.angular[:, :2])
+        desired = np.where(orders.flying[:, None], orders.linear[:, :2], orders.angular[:, :2])
         climb = orders.linear[:, 2:]
         chasing = orders.flying & orders.places
         if chasing.any():
@@ -140,10 +140,10 @@ class DroneLaw:
             )
             up = pids["positionZ"].update(climb, place[:, 2:], moved[:, 2:], step, chasing)
             own = rotate(back, np.hstack((level, up)))
-            wanted = np.where(chasing[:, None], own[:, :2], wanted)
+            desired = np.where(chasing[:, None], own[:, :2], desired)
             climb = np.where(chasing[:, None], up, climb)
         steady = orders.flying | (orders.speeds & ~orders.places)
-        pull = pids["velocityXY"].update(wanted, velocity[:, :2], change[:, :2], step, steady)
+        pull = pids["velocityXY"].update(desired, velocity[:, :2], change[:, :2], step, steady)
         pull = pull / weight[:, None]
         leaning = np.column_stack((-pull[:, 1], pull[:, 0]))
         return np.where(steady[:, None], leaning, orders.angular[:, :2]), climb

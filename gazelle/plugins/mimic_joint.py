@@ -61,8 +61,8 @@ class MimicJoint(ModelPlugin):
         name = self._mimic.name
         lower = self._engine.parameter("joint_lower", name)
         upper = self._engine.parameter("joint_upper", name)
-        wanted = self._joint.positions()[:, :1] * self._multiplier + self._offset
-        target = np.clip(wanted, lower, upper)
+        desired = self._joint.positions()[:, :1] * self._multiplier + self._offset
+        target = np.clip(desired, lower, upper)
         error = target - self._mimic.positions()[:, :1]
         if self._pid is not None:
             efforts = self._pid.update(-error[:, 0], self._physics.time_step)

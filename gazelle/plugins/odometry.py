@@ -179,11 +179,11 @@ class OdometrySystem(PluginSystem[D]):
 def measure_wanted(outputs: Sequence[OdometryOutputs | None]) -> list[Odometry | None]:
     """Measure the odometry that has subscribers, together where possible; None for the rest."""
     found: list[Odometry | None] = [None] * len(outputs)
-    wanted: dict[type[OdometrySource], dict[int, OdometrySource]] = {}
+    by_type: dict[type[OdometrySource], dict[int, OdometrySource]] = {}
     for i, each in enumerate(outputs):
         if each is not None and each.source is not None and each.has_subscribers:
-            wanted.setdefault(type(each.source), {})[i] = each.source
-    for kind, sources in wanted.items():
+            by_type.setdefault(type(each.source), {})[i] = each.source
+    for kind, sources in by_type.items():
         for i, odometry in zip(sources, kind.measure_all(list(sources.values())), strict=True):
             found[i] = odometry
     return found

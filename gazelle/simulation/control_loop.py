@@ -197,10 +197,10 @@ class ControlLoop(ModelPlugin):
         if cycle is None:
             return None
         self._stop_emergency()
-        wanted = (cycle, hardware.law, laws, self._control_ns, self._clock.step_ns)
-        if self._native_run != wanted:
-            cycle.run(*wanted[1:])
-            self._native_run = wanted
+        arguments = (cycle, hardware.law, laws, self._control_ns, self._clock.step_ns)
+        if self._native_run != arguments:
+            cycle.run(*arguments[1:])
+            self._native_run = arguments
         cycle.begin(_or_never(self._updated_ns), _or_never(self._written_ns))
         self._handed_over = True
         # Without controllers nothing reports when there is nothing left to do.

@@ -147,13 +147,13 @@ class JointHardware(SimulatedHardware):
 
     def _move_motors(self) -> None:
         """Add motors to joints that hold velocities, and switch off those of others."""
-        wanted = set(np.flatnonzero(self._kinds == BY_MOTOR).tolist())
-        for index in sorted(self._motors - wanted):
+        needed = set(np.flatnonzero(self._kinds == BY_MOTOR).tolist())
+        for index in sorted(self._motors - needed):
             self._handles[index].add_motor(0.0)
-        for index in sorted(wanted - self._motors):
+        for index in sorted(needed - self._motors):
             self._handles[index].add_motor(min(_STRONG, self._strength[index]))
             self.cycle.speed_out[:, index] = math.nan
-        self._motors = wanted
+        self._motors = needed
 
     @property
     def motors(self) -> frozenset[str]:
@@ -176,8 +176,8 @@ class JointHardware(SimulatedHardware):
             self.cycle.effort_out[:, left] = 0.0
             self._act()
             self._arrange()
-        wanted = {name for info in start for held in info.claimed.values() for name in held}
-        some = [index for index, name in enumerate(names) if name in wanted]
+        needed = {name for info in start for held in info.claimed.values() for name in held}
+        some = [index for index, name in enumerate(names) if name in needed]
         self._forget(some, np.arange(self.nworld))
 
     def _forget(self, joints: Iterable[int], worlds: Worlds) -> None:
@@ -209,10 +209,10 @@ class JointHardware(SimulatedHardware):
 
     def _bound_rows(self, *, in_step: bool = False) -> JointRows:
         """Return the joints, to which the cycle is bound."""
-        wanted = in_step or self._bound[1]
-        if self._bound != (self._engine.revision, wanted):
-            self._rows.bind(self.cycle, in_step=wanted)
-            self._bound = self._engine.revision, wanted
+        needed = in_step or self._bound[1]
+        if self._bound != (self._engine.revision, needed):
+            self._rows.bind(self.cycle, in_step=needed)
+            self._bound = self._engine.revision, needed
         return self._rows
 
     def stop_emergency(self, stopped: Bools) -> None:
@@ -231,9 +231,9 @@ class JointHardware(SimulatedHardware):
         if (self._kinds != BY_EFFORT).any():
             return False
         commands = [each for each in self.interfaces.values() if each.name == EFFORT]
-        wanted = [each.commands for each in commands if isinstance(each, JointCommandInterface)]
+        needed = [each.commands for each in commands if isinstance(each, JointCommandInterface)]
         return not (
-            self.cycle.effort_out.any() or any(v.any() for each in wanted for v in each.values())
+            self.cycle.effort_out.any() or any(v.any() for each in needed for v in each.values())
         )
 
     @property

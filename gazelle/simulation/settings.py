@@ -94,17 +94,17 @@ class Tuning(StatePart):
         return dict(self._values())
 
     @between_steps
-    def send(self, /, **wanted: Any) -> dict[str, Any]:
+    def send(self, /, **requested: Any) -> dict[str, Any]:
         """Set some values, each to the nearest allowed one; returns the values in effect.
 
         Raises:
             SimulationError: There is no such value.
         """
-        for name in wanted:
+        for name in requested:
             if name not in self.tunables:
                 raise SimulationError(
                     f"'{self.topic}' has no '{name}'", hint=did_you_mean(name, self.tunables)
                 )
-        clamped = {name: self.tunables[name].clamp(value) for name, value in wanted.items()}
+        clamped = {name: self.tunables[name].clamp(value) for name, value in requested.items()}
         self._change({**self._values(), **clamped})
         return self.values

@@ -106,11 +106,11 @@ def test_what_cannot_be_switched_is_passed_over_if_asked(controllers):
 @pytest.mark.parametrize(
     ("act", "words"),
     [
-        (lambda c: c.load("group"), "load_controller refuses 'group': it is loaded already"),
+        (lambda c: c.load("group"), "load_controller refused 'group': it is loaded already"),
         (lambda c: c.load("nobody"), "no parameter /arm/nobody/type"),
         (lambda c: c.load("misspelt"), "JointPositionControler'; did you mean 'position_contr"),
         (lambda c: c.load("of_nothing"), "parameters in /arm/of_nothing do not suit"),
-        (lambda c: c.unload("group"), "unload_controller refuses 'group': it runs; stop it first"),
+        (lambda c: c.unload("group"), "unload_controller refused 'group': it runs; stop it first"),
         (lambda c: c.unload("nobody"), "'nobody': it is not loaded"),
         (lambda c: c.start("group"), "'group' runs already"),
         (lambda c: c.stop("elbow"), "'elbow' does not run"),

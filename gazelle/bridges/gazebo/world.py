@@ -95,10 +95,10 @@ class WorldServices:
             return no(f"SetPhysicsProperties: {error}")
         return yes("physics engine updated")
 
-    def change_physics(self, **wanted: Any) -> None:
+    def change_physics(self, **requested: Any) -> None:
         """Set the properties that differ from the present ones."""
         physics = self._simulation.physics
-        changed = {name: value for name, value in wanted.items() if value != _now(physics, name)}
+        changed = {name: value for name, value in requested.items() if value != _now(physics, name)}
         if changed:
             physics.set(**changed)
 

@@ -327,10 +327,10 @@ class _Tuning:
         """Current values."""
         return dataclasses.asdict(self._owner.settings)
 
-    def send(self, /, **wanted: Any) -> dict[str, Any]:
+    def send(self, /, **requested: Any) -> dict[str, Any]:
         """Set some values; invalid ones stay as they are."""
         try:
-            self._owner.apply(AmclSettings.read({**self.values, **wanted}))
+            self._owner.apply(AmclSettings.read({**self.values, **requested}))
         except Error:
             return self.values
         return self.values

@@ -281,12 +281,12 @@ class NavsatTransformNode:
 
     def _missing(self) -> list[str]:
         node = self._node
-        wanted = (
+        required = (
             (self._world, "odometry/filtered", "odometry"),
             (self._start, "gps/fix", "fixes"),
             (self._attitude, "imu/data", "a heading"),
         )
-        found = [f"{what} on {node.resolve(topic)}" for has, topic, what in wanted if has is None]
+        found = [f"{what} on {node.resolve(topic)}" for has, topic, what in required if has is None]
         if self._by_datum and self._start is None:
             found = ["a datum (the parameter 'datum' or the service of that name)"]
         return [*found, *self._transforms.described()]

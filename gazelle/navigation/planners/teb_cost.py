@@ -176,8 +176,8 @@ class BandCost:
     def _of_obstacles(self, band: Band) -> list[Floats]:
         s = self.settings
         clear, ahead = self._clearances(band)
-        wanted = s.min_obstacle_dist + s.penalty_epsilon
-        lacking = np.maximum(wanted - clear, 0.0)
+        required = s.min_obstacle_dist + s.penalty_epsilon
+        lacking = np.maximum(required - clear, 0.0)
         if s.obstacle_cost_exponent != 1.0 and s.min_obstacle_dist > 0.0:
             share = lacking / s.min_obstacle_dist
             lacking = s.min_obstacle_dist * share**s.obstacle_cost_exponent
@@ -185,7 +185,7 @@ class BandCost:
         return [
             math.sqrt(self.obstacle_weight) * lacking,
             math.sqrt(s.weight_inflation) * np.maximum(s.inflation_dist - clear, 0.0),
-            math.sqrt(s.weight_dynamic_obstacle) * np.maximum(wanted - ahead, 0.0),
+            math.sqrt(s.weight_dynamic_obstacle) * np.maximum(required - ahead, 0.0),
             math.sqrt(s.weight_dynamic_obstacle_inflation) * np.maximum(far - ahead, 0.0),
         ]
 

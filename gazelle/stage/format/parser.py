@@ -140,14 +140,14 @@ class _Parser:
     def _define(self) -> None:
         """Parse ``define NAME BASE ( ... )``; a second of a name is read, and not used."""
         name, base, opening = self._next(), self._next(), self._next()
-        for token, wanted, kind in (
+        for token, expected, kind in (
             (name, "a name", TokenKind.WORD),
             (base, "a type", TokenKind.WORD),
             (opening, "'('", TokenKind.OPEN),
         ):
             if token.kind != kind:
                 found = token.text or "the end"
-                message = f"expected {wanted} in 'define NAME TYPE ( ... )', found '{found}'"
+                message = f"expected {expected} in 'define NAME TYPE ( ... )', found '{found}'"
                 raise self._fail(message, token)
         entity = self._entity(base.text, name)
         entity.word = name.text

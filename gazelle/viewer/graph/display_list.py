@@ -189,9 +189,9 @@ class DisplayList:
             self.topics.pop(topic).remove()
 
     def _restore(self, topic: str) -> None:
-        wanted = self._wanted.pop(topic, None)
-        if isinstance(wanted, dict):
-            self.topics[topic].restore(wanted)
+        saved = self._wanted.pop(topic, None)
+        if isinstance(saved, dict):
+            self.topics[topic].restore(saved)
 
     def _forget(self, name: str) -> None:
         """Remove the robot of a parameter, or what was wrong with it."""
@@ -232,6 +232,6 @@ class DisplayList:
             self.robots[name].shown = self._switches[name].value
 
     def _restore_robot(self, name: str) -> None:
-        wanted = self._wanted.pop(name, None)
-        if isinstance(wanted, dict):
-            self._switches[name].value = wanted.get("shown") is not False
+        saved = self._wanted.pop(name, None)
+        if isinstance(saved, dict):
+            self._switches[name].value = saved.get("shown") is not False

@@ -55,7 +55,7 @@ class Tuned(Protocol):
     def values(self) -> Values:
         """Current values."""
 
-    def send(self, /, **wanted: Any) -> Values:
+    def send(self, /, **requested: Any) -> Values:
         """Set some values; returns the values in effect."""
 
 
@@ -96,13 +96,13 @@ class ReconfigureServer:
         self, request: dynamic_reconfigure.srv.ReconfigureRequest
     ) -> dict[str, dynamic_reconfigure.msg.Config]:
         """Set known values; other names are ignored, as by the original."""
-        wanted = {
+        requested = {
             each.name: each.value
             for kind in _LISTS.values()
             for each in getattr(request.config, kind)
             if each.name in self._tuning.tunables
         }
-        return {"config": self._publish_values(self._tuning.send(**wanted))}
+        return {"config": self._publish_values(self._tuning.send(**requested))}
 
     def _publish_values(self, values: Values) -> dynamic_reconfigure.msg.Config:
         config = _config(values)

@@ -185,9 +185,9 @@ def as_message(value: Any, message_class: Any) -> Any:
             return message_class(*value)
         return message_class(value)
     except (TypeError, AttributeError) as error:
-        wanted = message_class._type
+        expected = message_class._type
         raise ServiceError(
-            f"handler returned invalid value: {error}; expected a {wanted}"
+            f"handler returned invalid value: {error}; expected a {expected}"
         ) from None
 
 

@@ -142,8 +142,8 @@ def test_a_goal_moves_the_head_and_ends_when_it_points_there(graph):
     ("place", "frame", "stuck", "why"),
     [
         ((7.0, 1.0, 0.5), "nowhere", False, "frame 'nowhere' is not known"),
-        ((4.0, 0.0, 0.5), "world", False, "rad off, for its joints' limits"),
-        ((7.0, 1.0, 0.5), "world", True, "rad off, for its controller"),
+        ((4.0, 0.0, 0.5), "world", False, "rad off the target: its joints' limits"),
+        ((7.0, 1.0, 0.5), "world", True, "rad off the target: its controller"),
     ],
 )
 def test_a_goal_that_cannot_be_reached_says_why(graph, place, frame, stuck, why):

@@ -24,8 +24,8 @@ def with_memory(spec: mujoco.MjSpec, compiled: mujoco.MjModel) -> mujoco.MjModel
     """
     moving = compiled.body_weldid[compiled.geom_bodyid] != 0
     colliding = (compiled.geom_contype | compiled.geom_conaffinity) != 0
-    wanted = _FOR_SHAPE * int(np.count_nonzero(moving & colliding))
-    if compiled.narena >= wanted:
+    required = _FOR_SHAPE * int(np.count_nonzero(moving & colliding))
+    if compiled.narena >= required:
         return compiled
-    spec.memory = wanted
+    spec.memory = required
     return spec.compile()

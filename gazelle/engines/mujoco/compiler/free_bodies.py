@@ -33,9 +33,9 @@ def allows_sleep(world: World, kinematic: Collection[str] = ()) -> bool:
         world: The description.
         kinematic: Names of kinematic models; such a one is never free.
     """
-    wanted = world.profile.auto_disable
-    if wanted is not None:
-        return wanted
+    setting = world.profile.auto_disable
+    if setting is not None:
+        return setting
     moving = _moving(world, kinematic)
     return sum(_is_free(model) and model.allow_auto_disable for model in moving) >= _MANY
 
@@ -48,9 +48,9 @@ def uses_speculative_contacts(
     There is need when a free body is so small that, at ``_FAST``, it moves in one step by
     more than half its thickness. Robots do not get that fast.
     """
-    wanted = world.profile.speculative_contacts
-    if wanted is not None:
-        return wanted
+    setting = world.profile.speculative_contacts
+    if setting is not None:
+        return setting
     reach = _FAST * time_step
     moving = _moving(world, kinematic)
     return any(_is_free(model) and _half_thickness(model) <= reach for model in moving)

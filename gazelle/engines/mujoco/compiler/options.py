@@ -83,11 +83,11 @@ def _cone(world: World, kinematic: Collection[str]) -> mujoco.mjtCone:
     Raises:
         EngineError: There are no such contacts.
     """
-    wanted, friction_model = world.profile.contacts, world.profile.ode.friction_model
-    if wanted is not None and wanted not in CONTACTS:
-        raise EngineError(f"there are no contacts '{wanted}'", hint=did_you_mean(wanted, CONTACTS))
-    if wanted is not None:
-        cone = wanted == "exact"
+    kind, friction_model = world.profile.contacts, world.profile.ode.friction_model
+    if kind is not None and kind not in CONTACTS:
+        raise EngineError(f"there are no contacts '{kind}'", hint=did_you_mean(kind, CONTACTS))
+    if kind is not None:
+        cone = kind == "exact"
     elif friction_model is not None:
         cone = friction_model == "cone_model"
     else:

@@ -106,10 +106,10 @@ def turn_edges(edges: wp.vec4, one: float, two: float) -> wp.vec4:
 def turn_pyramid(rows: ConstraintRows, world: int, row: wp.vec4i, one: float, two: float) -> None:
     """Turn a pyramid's first direction, with all data of its four edges."""
     turned = turn_edges(_four(rows.velocity, world, row), one, two)
-    wanted = turn_edges(_four(rows.reference, world, row), one, two)
+    reference = turn_edges(_four(rows.reference, world, row), one, two)
     for edge in range(4):
         rows.velocity[world, row[edge]] = turned[edge]
-        rows.reference[world, row[edge]] = wanted[edge]
+        rows.reference[world, row[edge]] = reference[edge]
     for place in range(row_width(rows, world, row[0])):
         numbers = wp.vec4(
             row_entry(rows, world, row[0], place),

@@ -62,9 +62,9 @@ def _direct(rows: ConstraintRows, found: ContactList, laws: ContactLaws, contact
     if found.dim[contact] >= SLIDING and laws.cone != 0:
         world = found.world[contact]
         frame = found.frame[contact]
-        wanted = _first_direction(found, laws, contact)
-        one = wp.dot(wanted, frame[1])
-        two = wp.dot(wanted, frame[2])
+        desired = _first_direction(found, laws, contact)
+        one = wp.dot(desired, frame[1])
+        two = wp.dot(desired, frame[2])
         size = wp.sqrt(one * one + two * two)
         if size >= 1.0e-3:
             one = one / size
@@ -207,17 +207,17 @@ def _leave_slowly(
         geoms = found.geom[contact]
         most = wp.min(laws.exit_speed[geoms[0]], laws.exit_speed[geoms[1]])
         row = found.address[contact, 0]
-        wanted = rows.reference[world, row]
+        desired = rows.reference[world, row]
         parting = rows.velocity[world, row]
         count = int(1)
         if found.dim[contact] > 1 and laws.cone == 0:
             other = found.address[contact, 1]
-            wanted = 0.5 * (wanted + rows.reference[world, other])
+            desired = 0.5 * (desired + rows.reference[world, other])
             parting = 0.5 * (parting + rows.velocity[world, other])
             count = 2 * (found.dim[contact] - 1)
         step = laws.step[world % laws.step.shape[0]]
         damping = damping_of(laws, found.solref[contact], found.solimp[contact][1], step)
-        excess = wanted + damping * (parting - most)
+        excess = desired + damping * (parting - most)
         if excess > 0.0:
             for edge in range(count):
                 place = found.address[contact, edge]

@@ -26,8 +26,8 @@ _LIST_S = 1.0  # between two looks at what topics there are
 class _TopicImages:
     """Images of one topic, with its choice, their size, encoding and rate."""
 
-    def __init__(self, context: GraphContext, wanted: str) -> None:
-        self._context, self._wanted = context, wanted
+    def __init__(self, context: GraphContext, selected: str) -> None:
+        self._context, self._wanted = context, selected
         self._subscriber: Any = None
         self._followed = _NONE
         self._arrivals, self._last, self._drawn = Arrivals(), None, 0

@@ -121,14 +121,14 @@ class JointTrajectoryPanel(GraphPanel):
 
     def _command(self, actual: dict[str, float]) -> None:
         """Send the sliders' positions if the user moved one."""
-        wanted = self._wanted()
-        if wanted == self._sent or self._publisher is None:
+        targets = self._wanted()
+        if targets == self._sent or self._publisher is None:
             return
-        self._sent = wanted
-        farthest = max(abs(wanted[name] - actual[name]) for name in wanted)
+        self._sent = targets
+        farthest = max(abs(targets[name] - actual[name]) for name in targets)
         seconds = max(farthest / self._speed.value, _LEAST_S)
         point = trajectory_msgs.msg.JointTrajectoryPoint(
-            positions=list(wanted.values()), time_from_start=Duration.from_sec(seconds)
+            positions=list(targets.values()), time_from_start=Duration.from_sec(seconds)
         )
-        sent = trajectory_msgs.msg.JointTrajectory(joint_names=list(wanted), points=[point])
+        sent = trajectory_msgs.msg.JointTrajectory(joint_names=list(targets), points=[point])
         self._publisher.publish(sent)

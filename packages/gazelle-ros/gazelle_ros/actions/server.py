@@ -385,8 +385,8 @@ class ActionServer:
             if request.id and self._find(request.id) is None:
                 self._remember_cancel(request)
             self._last_cancel = max(self._last_cancel, request.stamp)
-            wanted = [handle for handle in chosen if handle.set_cancel_requested()]
-        for handle in wanted:
+            handles = [handle for handle in chosen if handle.set_cancel_requested()]
+        for handle in handles:
             if self.cancel_callback is not None:
                 self.cancel_callback(handle)
 

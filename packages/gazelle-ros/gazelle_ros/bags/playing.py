@@ -143,10 +143,10 @@ class Player:
     # Before ------------------------------------------------------------------------------
 
     def _advertise(self) -> None:
-        for bag, wanted in zip(self._bags, self._wanted, strict=True):
+        for bag, selected in zip(self._bags, self._wanted, strict=True):
             for connection in bag.index.connections.values():
                 key = (connection.topic, connection.md5sum)
-                if connection.id in wanted and key not in self._publishers:
+                if connection.id in selected and key not in self._publishers:
                     self._publishers[key] = self._publisher(connection)
         if self._options.clock:
             self._clock_class = rosgraph_msgs.msg.Clock
@@ -187,8 +187,8 @@ class Player:
         duration = self._options.duration
         end = None if duration is None else start + round(duration * SECOND)
         streams = [
-            messages_of(bag.stored(), bag.index, wanted, start, end)
-            for bag, wanted in zip(self._bags, self._wanted, strict=True)
+            messages_of(bag.stored(), bag.index, selected, start, end)
+            for bag, selected in zip(self._bags, self._wanted, strict=True)
         ]
         return heapq.merge(*streams, key=lambda entry: entry.time)
 

@@ -284,8 +284,8 @@ def messages_of(
     Raises:
         BagFormatError: The bag is damaged.
     """
-    wanted = None if connections is None else frozenset(connections)
-    times, ids, chunks, offsets = select(file, index, wanted, start, end)
+    selected = None if connections is None else frozenset(connections)
+    times, ids, chunks, offsets = select(file, index, selected, start, end)
     for begin in range(0, len(times), _BLOCK):
         part = slice(begin, begin + _BLOCK)
         current, content = -1, memoryview(b"")

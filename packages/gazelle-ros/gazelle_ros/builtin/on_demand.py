@@ -50,10 +50,10 @@ class OnDemandOutputs:
     def _look(self, _peer: str) -> None:
         """Subscribe to the sources or unsubscribe, as a topic has subscribers or none has."""
         with self._lock:
-            wanted = any(each.num_connections > 0 for each in self._publishers)
-            if wanted and not self._sources:
+            needed = any(each.num_connections > 0 for each in self._publishers)
+            if needed and not self._sources:
                 self._sources = self._begin()
-            elif not wanted:
+            elif not needed:
                 for each in self._sources:
                     each.close()
                 self._sources = ()

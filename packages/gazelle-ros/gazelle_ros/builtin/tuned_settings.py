@@ -49,10 +49,10 @@ class TunedSettings(Generic[Settings]):
         """Current values."""
         return {name: getattr(self.settings, name) for name in self.tunables}
 
-    def send(self, /, **wanted: Any) -> Values:
+    def send(self, /, **requested: Any) -> Values:
         """Set some values, within their limits; returns the values in effect."""
         with self._lock:
-            allowed = {name: self.tunables[name].clamp(value) for name, value in wanted.items()}
+            allowed = {name: self.tunables[name].clamp(value) for name, value in requested.items()}
             settings = replace(self.settings, **allowed)  # type: ignore[type-var]  # a dataclass
             self._change(settings)
             self.settings = settings

@@ -96,11 +96,11 @@ def find_node(plan: LaunchPlan, name: str) -> NodePlan:
     Raises:
         LaunchError: There is none; the hint names the closest.
     """
-    wanted = names.canonical(names.join("/", name))
+    full_name = names.canonical(names.join("/", name))
     known = {node.full_name: node for node in [*plan.nodes, *plan.tests]}
-    if wanted not in known:
-        raise LaunchError(f"there is no node '{wanted}'", hint=did_you_mean(wanted, known))
-    return known[wanted]
+    if full_name not in known:
+        raise LaunchError(f"there is no node '{full_name}'", hint=did_you_mean(full_name, known))
+    return known[full_name]
 
 
 def command(node: NodePlan, packages: Packages, master_uri: str) -> list[str]:

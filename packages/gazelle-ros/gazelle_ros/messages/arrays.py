@@ -120,14 +120,14 @@ def numbers(value: Any, base: str, count: int | None) -> bytes:
 def _numpy_bytes(value: Any, base: str) -> bytes:
     import numpy as np
 
-    wanted = np.dtype(DTYPES[base])
-    if value.size and not np.can_cast(value.dtype, wanted, "same_kind"):
-        _check_unlike(value, wanted)
-    if value.dtype != wanted and wanted.kind in "iu" and value.size:
-        limits = np.iinfo(wanted)
+    expected = np.dtype(DTYPES[base])
+    if value.size and not np.can_cast(value.dtype, expected, "same_kind"):
+        _check_unlike(value, expected)
+    if value.dtype != expected and expected.kind in "iu" and value.size:
+        limits = np.iinfo(expected)
         if int(value.min()) < limits.min or int(value.max()) > limits.max:
             raise OverflowError(f"a number in the array does not fit into {base}")
-    data: bytes = np.ascontiguousarray(value, dtype=wanted).tobytes()
+    data: bytes = np.ascontiguousarray(value, dtype=expected).tobytes()
     return data
 
 

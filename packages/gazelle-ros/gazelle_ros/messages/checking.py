@@ -30,9 +30,9 @@ def check_type(field_name: str, field_type: str, field_val: Any) -> None:
     elif field_type in INTEGER_BITS:
         _check_integer(field_name, field_type, field_val)
     elif field_type in _SIMPLE:
-        fits, wanted = _SIMPLE[field_type]
+        fits, expected = _SIMPLE[field_type]
         if not fits(field_val):
-            raise SerializationError(f"field {field_name} {wanted}")
+            raise SerializationError(f"field {field_name} {expected}")
     else:
         _check_message(field_name, field_type, field_val)
 

@@ -161,16 +161,16 @@ class _Filler:
         return message
 
     def _array(self, base: str, length: int | None, value: Any, path: tuple[str, ...]) -> Any:
-        wanted = f"{base}[{'' if length is None else length}]"
+        array_type = f"{base}[{'' if length is None else length}]"
         if base in OCTETS and isinstance(value, str):
-            found: Any = self._decoded(wanted, value, path)
+            found: Any = self._decoded(array_type, value, path)
         elif isinstance(value, Sequence) and not isinstance(value, (str, bytes)):
             found = [
                 self._value(base, each, None, (*path[:-1], f"{path[-1]}[{index}]"))
                 for index, each in enumerate(value)
             ]
         else:
-            raise self._type_error(path, wanted, value)
+            raise self._type_error(path, array_type, value)
         if length is not None and len(found) != length:
             raise MessageException(
                 f"{self._root} message requires {length} items for field {'.'.join(path)}, "

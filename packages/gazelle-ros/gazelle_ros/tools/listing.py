@@ -169,10 +169,10 @@ def topic_type(graph: GraphInspector, name: str) -> str:
     Raises:
         ToolError: It is unused.
     """
-    wanted = graph.resolve(name)
-    found = find_topic(graph, wanted)
+    resolved = graph.resolve(name)
+    found = find_topic(graph, resolved)
     if found is None:
-        raise ToolError(f"unknown topic type [{wanted}]", hint=closest_topic(graph, wanted))
+        raise ToolError(f"unknown topic type [{resolved}]", hint=closest_topic(graph, resolved))
     _, kind, path = found
     if not path:
         return kind

@@ -134,7 +134,7 @@ def nodes_on(graph: GraphInspector, machine: str) -> list[str]:
         ToolError: The host is not known.
     """
     try:
-        wanted = _addresses(machine)
+        addresses = _addresses(machine)
     except OSError:
         raise ToolError(f"cannot resolve machine name [{machine}] to address") from None
     found = []
@@ -143,7 +143,7 @@ def nodes_on(graph: GraphInspector, machine: str) -> list[str]:
         if host is None:
             continue
         try:
-            if host == machine or _addresses(host) & wanted:
+            if host == machine or _addresses(host) & addresses:
                 found.append(node)
         except OSError:
             continue

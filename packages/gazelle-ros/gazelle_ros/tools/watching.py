@@ -24,16 +24,16 @@ def wait_for_topic(
     graph: GraphInspector, name: str, stop: threading.Event
 ) -> tuple[str, str, str] | None:
     """Return topic, type and path of a name, when there is such a topic; None if stopped."""
-    wanted = graph.resolve(name)
+    resolved = graph.resolve(name)
     said = False
     while not stop.is_set():
-        found = find_topic(graph, wanted)
+        found = find_topic(graph, resolved)
         if found is not None and found[1] != ANY_TYPE:
             return found
         if not said:
             said = True
-            sys.stderr.write(f"WARNING: topic [{wanted}] does not appear to be published yet\n")
-            hint = closest_topic(graph, wanted)
+            sys.stderr.write(f"WARNING: topic [{resolved}] does not appear to be published yet\n")
+            hint = closest_topic(graph, resolved)
             if hint is not None:
                 sys.stderr.write(f"  hint: {hint}\n")
         stop.wait(_POLL_S)

@@ -116,8 +116,8 @@ class _NodeletLoader:
 
         def broken() -> None:
             with self._lock:  # the answer of the service has come then
-                wanted, self._loaded = self._loaded, False
-            if wanted:
+                was_loaded, self._loaded = self._loaded, False
+            if was_loaded:
                 on_end()
 
         if self._bonds is not None:
@@ -131,8 +131,8 @@ class _NodeletLoader:
     def unload(self) -> None:
         """Unload the nodelet, unless that was done."""
         with self._lock:
-            wanted, self._loaded = self._loaded and not self._node.closed, False
-        if wanted:
+            was_loaded, self._loaded = self._loaded and not self._node.closed, False
+        if was_loaded:
             # A manager that ends at the same time has unloaded it.
             with contextlib.suppress(*_MANAGER_IS_GONE):
                 _request_unload(self._node, self._manager, self._node.name)
