@@ -25,7 +25,7 @@ sys.path.insert(0, str(ROOT))
 import gazelle  # noqa: E402  of this checkout
 from gazelle import assets  # noqa: E402
 from gazelle.bridges import serve_ros  # noqa: E402
-from gazelle.cli.descriptions_beside import descriptions_beside  # noqa: E402
+from gazelle.cli.description_publisher import publishing_descriptions  # noqa: E402
 from gazelle.simulation import Simulation  # noqa: E402
 from gazelle.viewer import LiveView  # noqa: E402
 from gazelle.viewer.graph import GraphView  # noqa: E402
@@ -91,7 +91,7 @@ def graph_view() -> Iterator[tuple[Callable[[], Any], Callable[[Any], None]]]:
         Master("127.0.0.1", 0) as master,
         running() as simulation,
         serve_ros(simulation, master.uri) as server,
-        descriptions_beside(simulation, server),
+        publishing_descriptions(simulation, server),
     ):
         yield lambda: GraphView(master.uri), arrange
 

@@ -19,7 +19,7 @@ import sys
 from pathlib import Path
 
 from gazelle.cli import showing
-from gazelle.cli.episodes_beside import show_episodes
+from gazelle.cli.episode_replay import show_episodes
 from gazelle.cli.failures import failures_file, save_failures
 from gazelle.cli.viewing import add_view
 from gazelle_ros.base.argument_types import positive_int

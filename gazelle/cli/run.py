@@ -25,10 +25,10 @@ import sys
 import time
 from typing import TYPE_CHECKING
 
-from gazelle.cli.descriptions_beside import descriptions_beside
+from gazelle.cli.description_publisher import publishing_descriptions
 from gazelle.cli.grounding import add_ground
-from gazelle.cli.moveit_beside import add_moveit, moveit_beside, start_requested_controllers
-from gazelle.cli.rosbridge_beside import add_rosbridge, rosbridge_beside
+from gazelle.cli.moveit_option import add_moveit, running_moveit, start_requested_controllers
+from gazelle.cli.rosbridge_option import add_rosbridge, running_rosbridge
 from gazelle.cli.spawning import parse_spawn, spawn
 from gazelle.cli.viewing import add_view, viewing
 from gazelle.errors import SimulationError
@@ -265,16 +265,16 @@ def _serve(sim: Simulation, args: argparse.Namespace, page: str) -> int:
     if args.paused:
         sim.pause()
     if sim.extension(StageFleet) is not None:
-        with serve_stage(sim, rate=args.rate) as stage, rosbridge_beside(stage, args):
+        with serve_stage(sim, rate=args.rate) as stage, running_rosbridge(stage, args):
             if sim.paused:
                 sys.stderr.write("paused; the service /gazelle/unpause starts it\n")
             return _attend(sim, stage, args, page)
     sim.physics.update_rate = (args.rate or 0.0) / sim.physics.time_step
     with (
         serve_ros(sim) as server,
-        descriptions_beside(sim, server),
-        moveit_beside(sim, server, args),
-        rosbridge_beside(server, args),
+        publishing_descriptions(sim, server),
+        running_moveit(sim, server, args),
+        running_rosbridge(server, args),
     ):
         return _attend(sim, server, args, page)
 

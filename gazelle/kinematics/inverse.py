@@ -172,7 +172,9 @@ class InverseKinematics:
         shape = (count, len(self.robot.variables))
         if starts.shape not in {shape, shape[1:]}:
             raise PlanningError(f"states have the shape {shape}, not {starts.shape}")
-        targets = np.concatenate((target_poses[:, :3, :3].reshape(count, 9), target_poses[:, :3, 3]), axis=1)
+        targets = np.concatenate(
+            (target_poses[:, :3, :3].reshape(count, 9), target_poses[:, :3, 3]), axis=1
+        )
         return targets, np.broadcast_to(starts, shape)
 
     def _solve_one(

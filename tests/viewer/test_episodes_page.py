@@ -10,7 +10,7 @@ import pytest
 pytest.importorskip("viser", reason="the extra 'web' is not installed")
 pytest.importorskip("torch", reason="the extra 'train' is not installed")
 
-from gazelle.cli import episodes_beside
+from gazelle.cli import episode_replay
 from gazelle.cli.main import main
 from gazelle.training import Actor, evaluate
 from gazelle.viewer.episodes_page import EpisodesPage
@@ -22,7 +22,7 @@ from tests.viewer.browser import opened
 def seen(monkeypatch):
     """Return what is shown; somebody looks, and time does not pass."""
     shown = []
-    wait = episodes_beside._EpisodePace.wait
+    wait = episode_replay._EpisodePace.wait
 
     def noted(pace, left):
         if left == 1:
@@ -32,14 +32,14 @@ def seen(monkeypatch):
             shown.append((int(view._context.worlds[0]), text, goals[:, :2].copy()))
         wait(pace, left)
 
-    monkeypatch.setattr(episodes_beside._EpisodePace, "wait", noted)
+    monkeypatch.setattr(episode_replay._EpisodePace, "wait", noted)
     monkeypatch.setattr(EpisodesPage, "watched", True)
     monkeypatch.setattr(  # nobody is to be waited for after the last
-        episodes_beside._EpisodePace,
+        episode_replay._EpisodePace,
         "following",
         lambda _, number, count: number + 1 if number + 1 < count else None,
     )
-    monkeypatch.setattr(episodes_beside.time, "sleep", lambda _: None)
+    monkeypatch.setattr(episode_replay.time, "sleep", lambda _: None)
     return shown
 
 
@@ -55,7 +55,7 @@ def failing(episodes, copies):
 
 def test_episodes_are_shown_one_by_one_failures_first(seen, capsys):
     found = failing(4, 2)
-    episodes_beside.show_episodes(found, 0)
+    episode_replay.show_episodes(found, 0)
     order = sorted(found.records, key=lambda record: not record.failed)
     for number, (record, (world, text, marks)) in enumerate(zip(order, seen, strict=True), 1):
         assert world == record.place.copy
@@ -72,7 +72,7 @@ def test_a_view_is_of_this_process_and_not_for_programs(other, capsys):
 
 @pytest.mark.parametrize("chosen", [None, 2])
 def test_a_reload_after_the_last_episode_ends_nothing(monkeypatch, chosen):
-    monkeypatch.setattr(episodes_beside, "_GONE", 0.3)
+    monkeypatch.setattr(episode_replay, "_GONE", 0.3)
     moments = iter([(False, None), (chosen is not None, chosen)])  # watched, and what is chosen
 
     def take_choice():
@@ -80,7 +80,7 @@ def test_a_reload_after_the_last_episode_ends_nothing(monkeypatch, chosen):
         return chosen
 
     page = SimpleNamespace(episodes=SimpleNamespace(take_choice=take_choice))
-    assert episodes_beside._EpisodePace(page, 0.1).following(2, 3) == chosen
+    assert episode_replay._EpisodePace(page, 0.1).following(2, 3) == chosen
 
 
 @pytest.mark.long
@@ -90,7 +90,7 @@ def test_a_policy_is_watched_as_it_fails(capsys, monkeypatch):
 
     def play():
         with suppress(InterruptedError):
-            episodes_beside.show_episodes(found, 0)
+            episode_replay.show_episodes(found, 0)
 
     thread = threading.Thread(target=play, daemon=True)
     thread.start()

@@ -34,54 +34,54 @@ SLIDING = wp.constant(3)  # directions of a contact with friction
 
 
 @wp.kernel
-def correct_contacts(rows: ConstraintRows, found: ContactList, laws: ContactLaws) -> None:
+def correct_contacts(rows: ConstraintRows, contacts: ContactList, laws: ContactLaws) -> None:
     """Apply the laws to contacts before MuJoCo Warp solves for their forces."""
     contact = wp.tid()
-    if contact >= found.total[0]:
+    if contact >= contacts.total[0]:
         return
-    if (found.kind[contact] & CONSTRAINT) == 0 or found.address[contact, 0] < 0:
+    if (contacts.kind[contact] & CONSTRAINT) == 0 or contacts.address[contact, 0] < 0:
         return
-    geoms = found.geom[contact]
+    geoms = contacts.geom[contact]
     if geoms[0] < 0 or geoms[1] < 0:
         return
     if laws.directional_friction != 0:
-        _direct(rows, found, laws, contact)
+        _direct(rows, contacts, laws, contact)
     if laws.wheel_geoms != 0:
-        _stand_in_the_middle(rows, found, laws, contact)
+        _stand_in_the_middle(rows, contacts, laws, contact)
     if laws.touches != 0:
-        _leave_slowly(rows, found, laws, contact)
-    if found.solreffriction[contact][1] < 0.0:
-        _bounce(rows, found, laws, contact)
+        _leave_slowly(rows, contacts, laws, contact)
+    if contacts.solreffriction[contact][1] < 0.0:
+        _bounce(rows, contacts, laws, contact)
     if laws.touches != 0:
-        stay_down(rows, found, laws, contact)
+        stay_down(rows, contacts, laws, contact)
 
 
 @wp.func
-def _direct(rows: ConstraintRows, found: ContactList, laws: ContactLaws, contact: int) -> None:
+def _direct(rows: ConstraintRows, contacts: ContactList, laws: ContactLaws, contact: int) -> None:
     """Turn the two friction directions of a contact to those of its surfaces."""
-    if found.dim[contact] >= SLIDING and laws.cone != 0:
-        world = found.world[contact]
-        frame = found.frame[contact]
-        desired = _first_direction(found, laws, contact)
+    if contacts.dim[contact] >= SLIDING and laws.cone != 0:
+        world = contacts.world[contact]
+        frame = contacts.frame[contact]
+        desired = _first_direction(contacts, laws, contact)
         one = wp.dot(desired, frame[1])
         two = wp.dot(desired, frame[2])
         size = wp.sqrt(one * one + two * two)
         if size >= 1.0e-3:
             one = one / size
             two = two / size
-            first = found.address[contact, 1]
-            second = found.address[contact, 2]
+            first = contacts.address[contact, 1]
+            second = contacts.address[contact, 2]
             turn_rows(rows, world, first, second, one, two)
             along = one * frame[1] + two * frame[2]
             across = one * frame[2] - two * frame[1]
-            found.frame[contact] = wp.matrix_from_rows(frame[0], along, across)
+            contacts.frame[contact] = wp.matrix_from_rows(frame[0], along, across)
 
 
 @wp.func
-def _first_direction(found: ContactList, laws: ContactLaws, contact: int) -> wp.vec3:
+def _first_direction(contacts: ContactList, laws: ContactLaws, contact: int) -> wp.vec3:
     """Return ODE's first direction of a contact in the world; zeros where it does not matter."""
-    geoms = found.geom[contact]
-    normal = found.frame[contact][0]
+    geoms = contacts.geom[contact]
+    normal = contacts.frame[contact][0]
     chosen = int(-1)
     least = float(1.0e30)
     kind = int(0)
@@ -95,7 +95,7 @@ def _first_direction(found: ContactList, laws: ContactLaws, contact: int) -> wp.
         elif own == BY_THE_NORMAL and kind == 0:
             kind = int(BY_THE_NORMAL)
     if kind == ITS_OWN:
-        return found.geom_xmat[found.world[contact], chosen] @ laws.direction[chosen]
+        return contacts.geom_xmat[contacts.world[contact], chosen] @ laws.direction[chosen]
     if kind == BY_THE_NORMAL:
         if wp.abs(normal[2]) > wp.sqrt(0.5):
             return wp.vec3(0.0, -normal[2], normal[1])
@@ -105,63 +105,63 @@ def _first_direction(found: ContactList, laws: ContactLaws, contact: int) -> wp.
 
 @wp.func
 def _stand_in_the_middle(
-    rows: ConstraintRows, found: ContactList, laws: ContactLaws, contact: int
+    rows: ConstraintRows, contacts: ContactList, laws: ContactLaws, contact: int
 ) -> None:
     """Move a contact with a wheel to the middle of its tread."""
-    world = found.world[contact]
-    geoms = found.geom[contact]
+    world = contacts.world[contact]
+    geoms = contacts.geom[contact]
     moved = int(0)
     for side in range(2):
         geom = geoms[side]
         joint = laws.tread[geom] - 1
-        if found.dim[contact] >= SLIDING and joint >= 0 and moved == 0:
-            axle = found.xaxis[world, joint]
-            place = found.position[contact]
-            along = wp.dot(place - found.geom_xpos[world, geom], axle) - laws.middle[geom]
-            lean = wp.dot(found.frame[contact][0], axle)
+        if contacts.dim[contact] >= SLIDING and joint >= 0 and moved == 0:
+            axle = contacts.xaxis[world, joint]
+            place = contacts.position[contact]
+            along = wp.dot(place - contacts.geom_xpos[world, geom], axle) - laws.middle[geom]
+            lean = wp.dot(contacts.frame[contact][0], axle)
             share = 1.0 - wp.abs(lean * along) / GIVES
             if share > 0.0 and wp.abs(lean) < STEEP and wp.abs(along) > NEAR:
                 shift = -share * along * axle
-                found.position[contact] = place + shift
-                _move(rows, found, laws, contact, shift)
+                contacts.position[contact] = place + shift
+                _move(rows, contacts, laws, contact, shift)
                 moved = 1
 
 
 @wp.func
 def _move(
-    rows: ConstraintRows, found: ContactList, laws: ContactLaws, contact: int, shift: wp.vec3
+    rows: ConstraintRows, contacts: ContactList, laws: ContactLaws, contact: int, shift: wp.vec3
 ) -> None:
     """Move where a contact acts: what turns a body about an axis w changes by w x shift."""
-    world = found.world[contact]
-    frame = found.frame[contact]
-    geoms = found.geom[contact]
+    world = contacts.world[contact]
+    frame = contacts.frame[contact]
+    geoms = contacts.geom[contact]
     change = wp.vec3(0.0, 0.0, 0.0)
     for side in range(2):
         sign = 1.0 if side == 1 else -1.0
         dof = _last_dof(laws, laws.geom_bodyid[geoms[side]])
         while dof >= 0:
-            spin = found.cdof[world, dof]
+            spin = contacts.cdof[world, dof]
             arm = sign * (frame @ wp.cross(wp.vec3(spin[0], spin[1], spin[2]), shift))
-            change += arm * found.qvel[world, dof]
-            parts = _by_rows(found, laws, contact, arm)
+            change += arm * contacts.qvel[world, dof]
+            parts = _by_rows(contacts, laws, contact, arm)
             for edge in range(_sliding_rows(laws)):
-                row = found.address[contact, edge]
+                row = contacts.address[contact, edge]
                 for place in range(row_width(rows, world, row)):
                     if row_dof(rows, world, row, place) == dof:
                         value = row_entry(rows, world, row, place) + parts[edge]
                         set_row_entry(rows, world, row, place, value)
             dof = laws.dof_parentid[dof]
-    parts = _by_rows(found, laws, contact, change)
+    parts = _by_rows(contacts, laws, contact, change)
     step = laws.step[world % laws.step.shape[0]]
-    share = found.solimp[contact][1]
-    normal = damping_of(laws, found.solref[contact], share, step)
+    share = contacts.solimp[contact][1]
+    normal = damping_of(laws, contacts.solref[contact], share, step)
     friction = normal
     if laws.cone != 0:
-        own = found.solreffriction[contact]
+        own = contacts.solreffriction[contact]
         if own[0] != 0.0 or own[1] != 0.0:
             friction = damping_of(laws, own, share, step)
     for edge in range(_sliding_rows(laws)):
-        row = found.address[contact, edge]
+        row = contacts.address[contact, edge]
         damping = normal if edge == 0 else friction
         rows.velocity[world, row] = rows.velocity[world, row] + parts[edge]
         rows.reference[world, row] = rows.reference[world, row] - damping * parts[edge]
@@ -176,12 +176,12 @@ def _sliding_rows(laws: ContactLaws) -> int:
 
 
 @wp.func
-def _by_rows(found: ContactList, laws: ContactLaws, contact: int, ways: wp.vec3) -> wp.vec4:
+def _by_rows(contacts: ContactList, laws: ContactLaws, contact: int, ways: wp.vec3) -> wp.vec4:
     """Transform (normal, first, second) directions to the rows of sliding: n ± mu t in a pyramid."""
     if laws.cone != 0:
         return wp.vec4(ways[0], ways[1], ways[2], 0.0)
-    first = found.friction[contact][0] * ways[1]
-    second = found.friction[contact][0] * ways[2]
+    first = contacts.friction[contact][0] * ways[1]
+    second = contacts.friction[contact][0] * ways[2]
     return wp.vec4(ways[0] + first, ways[0] - first, ways[0] + second, ways[0] - second)
 
 
@@ -199,43 +199,43 @@ def _last_dof(laws: ContactLaws, body: int) -> int:
 
 @wp.func
 def _leave_slowly(
-    rows: ConstraintRows, found: ContactList, laws: ContactLaws, contact: int
+    rows: ConstraintRows, contacts: ContactList, laws: ContactLaws, contact: int
 ) -> None:
     """Bound the velocity at which a contact pushes out what overlapped (``contact_laws.penetration_velocity``)."""
-    if found.margin[contact] < 0.0 and found.solref[contact][0] > 0.0:
-        world = found.world[contact]
-        geoms = found.geom[contact]
+    if contacts.margin[contact] < 0.0 and contacts.solref[contact][0] > 0.0:
+        world = contacts.world[contact]
+        geoms = contacts.geom[contact]
         most = wp.min(laws.exit_speed[geoms[0]], laws.exit_speed[geoms[1]])
-        row = found.address[contact, 0]
+        row = contacts.address[contact, 0]
         desired = rows.reference[world, row]
         parting = rows.velocity[world, row]
         count = int(1)
-        if found.dim[contact] > 1 and laws.cone == 0:
-            other = found.address[contact, 1]
+        if contacts.dim[contact] > 1 and laws.cone == 0:
+            other = contacts.address[contact, 1]
             desired = 0.5 * (desired + rows.reference[world, other])
             parting = 0.5 * (parting + rows.velocity[world, other])
-            count = 2 * (found.dim[contact] - 1)
+            count = 2 * (contacts.dim[contact] - 1)
         step = laws.step[world % laws.step.shape[0]]
-        damping = damping_of(laws, found.solref[contact], found.solimp[contact][1], step)
+        damping = damping_of(laws, contacts.solref[contact], contacts.solimp[contact][1], step)
         excess = desired + damping * (parting - most)
         if excess > 0.0:
             for edge in range(count):
-                place = found.address[contact, edge]
+                place = contacts.address[contact, edge]
                 rows.reference[world, place] = rows.reference[world, place] - excess
 
 
 @wp.func
-def _bounce(rows: ConstraintRows, found: ContactList, laws: ContactLaws, contact: int) -> None:
+def _bounce(rows: ConstraintRows, contacts: ContactList, laws: ContactLaws, contact: int) -> None:
     """Set the bounce of two bodies in the step of the impact, to reach e² of the height."""
-    world = found.world[contact]
-    row = found.address[contact, 0]
+    world = contacts.world[contact]
+    row = contacts.address[contact, 0]
     step = laws.step[world % laws.step.shape[0]]
-    pull = _pull(found, laws, contact)
+    pull = _pull(contacts, laws, contact)
     speed = -rows.velocity[world, row]
     late = 0.5 * pull * step
     if speed > STEPS_TO_REST * wp.abs(pull) * step and speed > 0.0:
-        e = -found.solref[contact][1] * step / FULL - 1.0
-        height = found.distance[contact] - found.margin[contact]
+        e = -contacts.solref[contact][1] * step / FULL - 1.0
+        height = contacts.distance[contact] - contacts.margin[contact]
         fallen = -2.0 * pull * wp.clamp(height, -speed * step, speed * step)
         parting = e * e * ((speed + late) * (speed + late) - fallen) + fallen
         if parting > late * late:
@@ -243,11 +243,11 @@ def _bounce(rows: ConstraintRows, found: ContactList, laws: ContactLaws, contact
 
 
 @wp.func
-def _pull(found: ContactList, laws: ContactLaws, contact: int) -> float:
+def _pull(contacts: ContactList, laws: ContactLaws, contact: int) -> float:
     """Return the free acceleration by which two bodies approach each other."""
-    world = found.world[contact]
-    geoms = found.geom[contact]
-    normal = found.frame[contact][0]
+    world = contacts.world[contact]
+    geoms = contacts.geom[contact]
+    normal = contacts.frame[contact][0]
     gravity = laws.gravity[world % laws.gravity.shape[0]]
     along = float(0.0)
     for side in range(2):

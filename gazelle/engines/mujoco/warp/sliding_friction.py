@@ -22,28 +22,30 @@ DAMPED = wp.constant(0.25)
 
 
 @wp.func
-def stay_down(rows: ConstraintRows, found: ContactList, laws: ContactLaws, contact: int) -> None:
+def stay_down(rows: ConstraintRows, contacts: ContactList, laws: ContactLaws, contact: int) -> None:
     """Set a sliding contact's normal velocity to that of one that holds."""
-    if found.dim[contact] >= 3:
+    if contacts.dim[contact] >= 3:
         if laws.cone != 0:
-            _on_a_cone(rows, found, laws, contact)
-        elif found.friction[contact][0] > 0.0:
-            _on_a_pyramid(rows, found, laws, contact)
+            _on_a_cone(rows, contacts, laws, contact)
+        elif contacts.friction[contact][0] > 0.0:
+            _on_a_pyramid(rows, contacts, laws, contact)
 
 
 @wp.func
-def _on_a_cone(rows: ConstraintRows, found: ContactList, laws: ContactLaws, contact: int) -> None:
-    world = found.world[contact]
-    friction = found.friction[contact]
-    first = found.address[contact, 1]
-    second = found.address[contact, 2]
-    normal = found.address[contact, 0]
+def _on_a_cone(
+    rows: ConstraintRows, contacts: ContactList, laws: ContactLaws, contact: int
+) -> None:
+    world = contacts.world[contact]
+    friction = contacts.friction[contact]
+    first = contacts.address[contact, 1]
+    second = contacts.address[contact, 2]
+    normal = contacts.address[contact, 0]
     along = friction[0] * rows.velocity[world, first]
     across = friction[1] * rows.velocity[world, second]
     size = wp.sqrt(along * along + across * across)
     most = wp.max(friction[0], friction[1])
     if most > 0.0:
-        share = _share(laws, world, size / most, most, _is_alike(found, laws, contact))
+        share = _share(laws, world, size / most, most, _is_alike(contacts, laws, contact))
         if share > 0.0:
             along = friction[0] * along / size
             across = friction[1] * across / size
@@ -57,24 +59,24 @@ def _on_a_cone(rows: ConstraintRows, found: ContactList, laws: ContactLaws, cont
 
 @wp.func
 def _on_a_pyramid(
-    rows: ConstraintRows, found: ContactList, laws: ContactLaws, contact: int
+    rows: ConstraintRows, contacts: ContactList, laws: ContactLaws, contact: int
 ) -> None:
     """Set the edges n ± mu t likewise, turned so that one direction is that of the slip."""
-    world = found.world[contact]
-    mu = found.friction[contact][0]
+    world = contacts.world[contact]
+    mu = contacts.friction[contact][0]
     row = wp.vec4i(
-        found.address[contact, 0],
-        found.address[contact, 1],
-        found.address[contact, 2],
-        found.address[contact, 3],
+        contacts.address[contact, 0],
+        contacts.address[contact, 1],
+        contacts.address[contact, 2],
+        contacts.address[contact, 3],
     )
     one = 0.5 * (rows.velocity[world, row[0]] - rows.velocity[world, row[1]]) / mu
     two = 0.5 * (rows.velocity[world, row[2]] - rows.velocity[world, row[3]]) / mu
     slip = wp.sqrt(one * one + two * two)
     if slip >= LEAST_CREEP:
-        _turn_frame(found, contact, one / slip, two / slip)
+        _turn_frame(contacts, contact, one / slip, two / slip)
         turn_pyramid(rows, world, row, one / slip, two / slip)
-        share = _share(laws, world, slip, mu, _is_alike(found, laws, contact))
+        share = _share(laws, world, slip, mu, _is_alike(contacts, laws, contact))
         if share > 0.0:
             left = float(0.0)
             lacking = float(0.0)
@@ -89,27 +91,31 @@ def _on_a_pyramid(
                 left = wp.max(left, more)
                 lacking = -0.5 * (ahead + behind)
             parting = share * _parting(laws, world, left, lacking, mu)
-            for edge in range(2 * (found.dim[contact] - 1)):
-                place = found.address[contact, edge]
+            for edge in range(2 * (contacts.dim[contact] - 1)):
+                place = contacts.address[contact, edge]
                 rows.reference[world, place] = rows.reference[world, place] - parting
 
 
 @wp.func
-def _is_alike(found: ContactList, laws: ContactLaws, contact: int) -> int:
+def _is_alike(contacts: ContactList, laws: ContactLaws, contact: int) -> int:
     """Return whether all contacts of both bodies have the same, isotropic friction."""
-    friction = found.friction[contact]
-    geoms = found.geom[contact]
-    if friction[0] != friction[1] or found.margin[contact] < 0.0 or wp.min(geoms[0], geoms[1]) < 0:
+    friction = contacts.friction[contact]
+    geoms = contacts.geom[contact]
+    if (
+        friction[0] != friction[1]
+        or contacts.margin[contact] < 0.0
+        or wp.min(geoms[0], geoms[1]) < 0
+    ):
         return 0
     return laws.alike[geoms[0]] * laws.alike[geoms[1]]
 
 
 @wp.func
-def _turn_frame(found: ContactList, contact: int, one: float, two: float) -> None:
-    frame = found.frame[contact]
+def _turn_frame(contacts: ContactList, contact: int, one: float, two: float) -> None:
+    frame = contacts.frame[contact]
     along = one * frame[1] + two * frame[2]
     across = one * frame[2] - two * frame[1]
-    found.frame[contact] = wp.matrix_from_rows(frame[0], along, across)
+    contacts.frame[contact] = wp.matrix_from_rows(frame[0], along, across)
 
 
 @wp.func

@@ -137,7 +137,9 @@ class RosApi(Closeable):
     def _providers(self, kind: str) -> list[str]:
         """Return the nodes that offer services of a type."""
         matching = self._services_for(kind)
-        return [node for name, nodes in self._graph.services() if name in matching for node in nodes]
+        return [
+            node for name, nodes in self._graph.services() if name in matching for node in nodes
+        ]
 
     def _service_node(self, service: str) -> str:
         nodes = dict(self._graph.services()).get(self._graph.resolve(service), [])

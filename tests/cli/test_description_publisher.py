@@ -7,7 +7,7 @@ from ros.graph import until
 
 import gazelle
 from gazelle.bridges import serve_ros
-from gazelle.cli.descriptions_beside import descriptions_beside
+from gazelle.cli.description_publisher import publishing_descriptions
 from gazelle_ros import Master, Node, load_message
 from gazelle_ros.tf import FrameTree, take_transforms
 
@@ -40,7 +40,7 @@ def test_the_frames_of_a_spawned_robot_hang_together(master, node, world):
     tree = received_frames(node)
     with gazelle.Simulation(world, "planar") as sim:
         sim.spawn(BURGER, pose=gazelle.Pose(-2.0, -0.5))
-        with serve_ros(sim, master.uri) as server, descriptions_beside(sim, server):
+        with serve_ros(sim, master.uri) as server, publishing_descriptions(sim, server):
             assert node.get_param("/robot_description").startswith("<?xml")
             server.start()
             until(lambda: tree.has("base_scan") and tree.has("odom"))
@@ -51,7 +51,7 @@ def test_a_description_that_is_there_is_left_alone(master, node):
     node.set_param("/robot_description", "<robot name='mine'/>")
     with gazelle.Simulation("empty", "planar") as sim:
         sim.spawn(BURGER)
-        with serve_ros(sim, master.uri) as server, descriptions_beside(sim, server):
+        with serve_ros(sim, master.uri) as server, publishing_descriptions(sim, server):
             assert node.get_param("/robot_description") == "<robot name='mine'/>"
             topics = dict(node.master.published_topics())
             assert "/tf_static" not in topics
@@ -62,7 +62,7 @@ def test_worlds_without_robots_of_urdf_files_have_no_description(master, node, w
     with (
         gazelle.Simulation(world, "planar") as sim,
         serve_ros(sim, master.uri) as server,
-        descriptions_beside(sim, server),
+        publishing_descriptions(sim, server),
     ):
         assert not node.has_param("/robot_description")
 
@@ -71,6 +71,6 @@ def test_a_second_robot_keeps_its_frames_to_itself(master, node):
     with gazelle.Simulation("empty", "planar") as sim:
         sim.spawn(BURGER)
         sim.spawn(BURGER, name="second", pose=gazelle.Pose(1.0), namespace="/second")
-        with serve_ros(sim, master.uri) as server, descriptions_beside(sim, server):
+        with serve_ros(sim, master.uri) as server, publishing_descriptions(sim, server):
             assert node.has_param("/robot_description")
             assert not node.has_param("/second/robot_description")

@@ -31,7 +31,7 @@ def add_rosbridge(parser: argparse.ArgumentParser) -> None:
 
 
 @contextmanager
-def rosbridge_beside(server: RosServer | StageServer, args: argparse.Namespace) -> Iterator[None]:
+def running_rosbridge(server: RosServer | StageServer, args: argparse.Namespace) -> Iterator[None]:
     """Run rosbridge and rosapi beside the simulation, if requested.
 
     Raises:

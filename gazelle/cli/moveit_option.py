@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gazelle.cli.descriptions_beside import urdf_of
+from gazelle.cli.description_publisher import urdf_of
 from gazelle.errors import ControlError, ResolveError
 from gazelle_ros.base import bounded_yaml
 from gazelle_ros.base.child_processes import child_process
@@ -63,7 +63,7 @@ def start_requested_controllers(sim: Simulation, args: argparse.Namespace) -> No
 
 
 @contextmanager
-def moveit_beside(sim: Simulation, server: RosServer, args: argparse.Namespace) -> Iterator[None]:
+def running_moveit(sim: Simulation, server: RosServer, args: argparse.Namespace) -> Iterator[None]:
     """Run MoveIt's node beside the simulation, if requested.
 
     Raises:

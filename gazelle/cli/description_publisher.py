@@ -19,7 +19,7 @@ _NODE = "robot_state_publisher"
 
 
 @contextmanager
-def descriptions_beside(sim: Simulation, server: RosServer) -> Iterator[None]:
+def publishing_descriptions(sim: Simulation, server: RosServer) -> Iterator[None]:
     """Publish ``robot_description`` and the transforms of its links while the simulation runs.
 
     A launch file does this with ``robot_state_publisher``; a robot of ``--spawn`` has no launch
