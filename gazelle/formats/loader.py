@@ -12,7 +12,7 @@ from gazelle.errors import FormatError, FormatWarning, ResolveError, closest_of
 from gazelle.formats import sdf, srdf, urdf, xacro, xml
 from gazelle.formats.map_world import map_world
 from gazelle.formats.model_config import entry_file
-from gazelle.formats.near_names import beside
+from gazelle.formats.near_names import describe_folder
 from gazelle.formats.occupancy import read_map
 from gazelle.formats.reading import Reading
 from gazelle.formats.resolve import Resolver
@@ -206,7 +206,7 @@ def find_file(path: PathLike, reading: Reading, *, model: bool = False) -> Path:
         close = closest_of(text, names)
         hint = f"{looked}" if "://" in text or "/" in text else close or _BUNDLED_HINT
         if text.startswith(("/", "~", ".")):
-            hint = beside(expanded(text))
+            hint = describe_folder(expanded(text))
         raise ResolveError("there is no such file, URI or bundled name", file=text, hint=hint)
     reading.resolver.look_around(found)
     return entry_file(found)

@@ -56,7 +56,7 @@ def closest_below(folder: Path, inner: str) -> str | None:
     return f"did you mean '{'/'.join(found)}'?" if "/".join(found) != inner else None
 
 
-def beside(file: Path) -> str:
+def describe_folder(file: Path) -> str:
     """Describe what is in the folder in which a file was expected, for a message."""
     folder = file.absolute().parent
     if not folder.is_dir():

@@ -105,7 +105,7 @@ def is_xacro(root: Parameters) -> bool:
         return True
     return any(
         child.tag.startswith(xacro_engine.PREFIX)
-        or xacro_engine.looks_old(child.tag, child.attributes)
+        or xacro_engine.lacks_prefix(child.tag, child.attributes)
         for child in root.children
     )
 

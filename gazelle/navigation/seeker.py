@@ -120,7 +120,7 @@ class GoalSeeker:
         interval = min(max(interval, 0.01), 0.5)
         self._poses.append((time, pose))
         if scan is not None and scan.stamp / 1e9 != self._scanned_at:
-            self._look(scan)
+            self._insert_scan(scan)
         if self._goal is None or scan is None:
             self._velocity = (0.0, 0.0)
             return self._velocity
@@ -194,7 +194,7 @@ class GoalSeeker:
             self.path, self._planned_at = np.zeros((0, 2)), -math.inf
         return waiting > _STUCK_AFTER
 
-    def _look(self, scan: LaserScan) -> None:
+    def _insert_scan(self, scan: LaserScan) -> None:
         """Insert a scan into the map, from the pose of the base at its time."""
         self._scanned_at = scan.stamp / 1e9
         x, y, yaw = self._pose_at(self._scanned_at)

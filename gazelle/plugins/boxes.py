@@ -45,7 +45,7 @@ class Contain(WorldPlugin):
             absolute("", f"{namespace}/enable"), bool, self._enable
         )
         self._output = simulation.ports.outputs[f"{namespace} contain"] = Output(
-            absolute("", f"{namespace}/contain"), Flags, lambda: Flags(self._look())
+            absolute("", f"{namespace}/contain"), Flags, lambda: Flags(self._check_contents())
         )
 
     def _enable(self, enabled: bool, _worlds: Worlds | None) -> None:  # noqa: FBT001  what the topic says
@@ -58,12 +58,12 @@ class Contain(WorldPlugin):
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  it looks at every step
         """Publish a change of contents."""
-        inside = self._look()
+        inside = self._check_contents()
         if self._published is None or (inside != self._published).any():
             self._published = inside
             self._output.publish()
 
-    def _look(self) -> NDArray[np.bool_]:
+    def _check_contents(self) -> NDArray[np.bool_]:
         entity = _placement(self._simulation, self._entity)
         if entity is None:
             return np.zeros(self._simulation.nworld, np.bool_)

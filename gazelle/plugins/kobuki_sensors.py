@@ -68,14 +68,14 @@ class Cliffs:
     def publish(self) -> None:
         """Measure, and publish changes."""
         for place, sensor in enumerate(self._sensors):
-            nearest = self._distances[:, place] = self._look(sensor)
+            nearest = self._distances[:, place] = self._floor_distance(sensor)
             deep = nearest >= self._threshold
             changed = (deep != self.deep[:, place]).any()
             self.deep[:, place] = deep
             if changed:
                 self._outputs[place].publish()
 
-    def _look(self, sensor: SensorUnit) -> Floats:
+    def _floor_distance(self, sensor: SensorUnit) -> Floats:
         """Return the distance to the floor [m], without the base's own hull around the sensors."""
         model: LidarModel = sensor.model  # type: ignore[assignment]  # seen to in sensor_of
         pose, least = sensor.description.pose, model.lidar.range_min

@@ -101,7 +101,7 @@ class CameraModel:
         check_worlds(worlds, self._engine.nworld)
         parts: list[Bytes] = []
         for number, optics in enumerate(self._optics):
-            color, depth = self._look(number, optics, worlds, depth=self.depth)
+            color, depth = self._render(number, optics, worlds, depth=self.depth)
             color = self._noisy(number, color, worlds)
             parts.append(color.reshape(len(color), -1))
             if self.depth:
@@ -121,9 +121,9 @@ class CameraModel:
         if width not in self._previews:
             small = replace(camera, width=columns, height=rows)
             self._previews[width] = self._make_optics(small)
-        return self._look(0, self._previews[width], worlds, depth=False)[0]
+        return self._render(0, self._previews[width], worlds, depth=False)[0]
 
-    def _look(
+    def _render(
         self, number: int, optics: Optics, worlds: Worlds | None, *, depth: bool
     ) -> tuple[Bytes, Floats32]:
         place, pose = self._engine.links[self.link].placement(worlds), self.poses[number]

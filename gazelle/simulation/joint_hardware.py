@@ -192,17 +192,17 @@ class JointHardware(SimulatedHardware):
 
     def read(self, time: float, period: float) -> None:  # noqa: ARG002  it reads the engine
         """Measure; joints that turn are followed round and round, and never jump."""
-        self._look()
+        self._read_joints()
         self.law.read_all()
 
     def measure(self, time: float) -> None:
         """Read the joints; positions of joints with limits are not wrapped."""
-        self._look()
+        self._read_joints()
         states = self.states
         states.position[:, self._limited] = self.cycle.position_in[:, self._limited]
         self.read(time, 0.0)
 
-    def _look(self) -> None:
+    def _read_joints(self) -> None:
         """Read where the joints are."""
         if self._names:
             self._bound_rows().read(self.cycle)

@@ -85,11 +85,11 @@ class HeadPointer:
 
     def _work(self, goal: control_msgs.msg.PointHeadGoal) -> None:
         try:
-            self._look(goal)
+            self._point(goal)
         except Error as error:
             self._server.set_aborted(text=error.message)
 
-    def _look(self, goal: control_msgs.msg.PointHeadGoal) -> None:
+    def _point(self, goal: control_msgs.msg.PointHeadGoal) -> None:
         """Point the head to a goal.
 
         Raises:

@@ -13,7 +13,7 @@ from pathlib import Path
 from gazelle import assets
 from gazelle.bridges.serving import RosServer, refuse_twin
 from gazelle.errors import ResolveError, SimulationWarning
-from gazelle.formats.near_names import beside, closest_below
+from gazelle.formats.near_names import closest_below, describe_folder
 from gazelle.simulation import Simulation
 from gazelle_ros import names
 from gazelle_ros.base.bundled_packages import published, published_hint
@@ -133,7 +133,7 @@ def find_world(name: str) -> str:
 def _hint_of(name: str, folders: Sequence[Path]) -> str:
     """Return a hint for the path of a world that is nowhere."""
     if Path(name).is_absolute():
-        return beside(Path(name))
+        return describe_folder(Path(name))
     close = next(filter(None, (closest_below(folder, name) for folder in folders)), None)
     return close or f"looked in {', '.join(str(folder) for folder in folders)}"
 

@@ -55,7 +55,7 @@ class GmappingNode(MappingNode):
         """Return the best particle's map."""
         return self.slam.map()
 
-    def take(
+    def process_scan(
         self,
         message: sensor_msgs.msg.LaserScan,
         ranges: Floats,

@@ -97,7 +97,7 @@ class HectorNode(MappingNode):
         """Return the map."""
         return self.slam.map()
 
-    def take(
+    def process_scan(
         self,
         message: sensor_msgs.msg.LaserScan,
         ranges: Floats,

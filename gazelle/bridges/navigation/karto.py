@@ -64,7 +64,7 @@ class KartoNode(MappingNode):
         """Return the map of all scans."""
         return self.slam.map()
 
-    def take(
+    def process_scan(
         self,
         message: sensor_msgs.msg.LaserScan,
         ranges: Floats,

@@ -82,7 +82,7 @@ class MappingNode(ABC):
         """Return the pose of the odometry frame on the map; None if it is not known."""
 
     @abstractmethod
-    def take(
+    def process_scan(
         self,
         message: sensor_msgs.msg.LaserScan,
         ranges: Floats,
@@ -139,7 +139,9 @@ class MappingNode(ABC):
             return
         sign = -1.0 if is_upside_down(mounted.rotation) else 1.0
         ranges = np.array(message.ranges, np.float64)
-        changed = self.take(message, ranges, sign * beam_angles(message), flat(mounted), odom)
+        changed = self.process_scan(
+            message, ranges, sign * beam_angles(message), flat(mounted), odom
+        )
         stamp = message.header.stamp.to_nsec()
         late = self._message is None or abs(stamp - self._mapped_ns) >= self._interval_ns
         if changed and late:

@@ -47,7 +47,7 @@ def meet(
 
     Args:
         run: Worlds that run.
-        rays: Aimed, ``beside`` where they should begin.
+        rays: Aimed, ``ray_offset`` where they should begin.
         worlds: Worlds.
         excluded: A body that rays pass through; the world's, 0, for none.
         signed: Whether to set distances to minus infinity where something is met from inside.
@@ -58,7 +58,7 @@ def meet(
     rays.settle(run.sheets, signed=signed)  # a sheet is met from both sides
 
 
-def beside(run: RunningWorlds) -> Floats:
+def ray_offset(run: RunningWorlds) -> Floats:
     """Return by how much rays start beside where they should [m], shape (3,)."""
     return BESIDE if run.compiled.model.nmesh else _NOWHERE
 
@@ -103,7 +103,7 @@ def cast_from(
     origins, directions = (np.ascontiguousarray(each, np.float64)[None] for each in rays)
     cast = FrameRays(origins, directions, len(place.position))
     at, turned = np.ascontiguousarray(place.position), np.ascontiguousarray(place.quaternion)
-    cast.aim(at[:, None], turned[:, None], beside(run))
+    cast.aim(at[:, None], turned[:, None], ray_offset(run))
     body = run.layout.link(link).body if ignore_own else 0
     if ignore_own and not body:
         inside = f"{link}::"
@@ -169,7 +169,7 @@ class MujocoRanges:
             run.state,
             np.array([slot.body for slot in slots], np.int64),
             np.array([_wxyz(each.pose) for each in slots]),
-            beside(run),
+            ray_offset(run),
             run.sheets,
             _GROUPS,
         )

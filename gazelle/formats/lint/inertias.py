@@ -46,11 +46,11 @@ def lint(world: World) -> Iterator[Diagnostic]:
                 place.link.source,
             )
             continue
-        yield from _strangest(name, place.link, inertial)
+        yield from _most_suspicious(name, place.link, inertial)
     yield from _mass_ratios(world)
 
 
-def _strangest(name: str, link: Link, inertial: Inertial) -> Iterator[Diagnostic]:
+def _most_suspicious(name: str, link: Link, inertial: Inertial) -> Iterator[Diagnostic]:
     """Yield at most one finding on a link; none if the reader has replaced the inertia."""
     if inertial.written is None:
         found = [*_triangle(name, inertial), *_compared_with_shape(name, link, inertial)]

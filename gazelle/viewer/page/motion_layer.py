@@ -53,7 +53,7 @@ class MotionLayer:
                 del self._motions[key]
             motions = dict(self._motions) if self.shown else {}
         return {
-            key: self._look(simulation.robots[key[0]], motion, key, spots[key[1]])
+            key: self._show_motion(simulation.robots[key[0]], motion, key, spots[key[1]])
             for key, motion in motions.items()
             if key[1] in spots
         }
@@ -78,7 +78,9 @@ class MotionLayer:
         with self._lock:
             self._motions[robot.name, world] = motion
 
-    def _look(self, robot: Robot, motion: JointMotion, key: tuple[str, int], spot: Floats) -> _Seen:
+    def _show_motion(
+        self, robot: Robot, motion: JointMotion, key: tuple[str, int], spot: Floats
+    ) -> _Seen:
         ghost, rows = self._ghosts.get(key), np.array([key[1]])
         if ghost is not None and ghost.base in robot.links:
             placed = robot.links[ghost.base].placement(rows)

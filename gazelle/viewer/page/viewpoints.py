@@ -54,7 +54,7 @@ class Viewpoints:
         with context.gui.add_folder("View"):
             self._from = context.gui.add_button_group("From", tuple(DIRECTIONS))
             context.gui.add_html(_SAVING)
-        self._from.on_click(self._look)
+        self._from.on_click(self._place_eye)
 
     def read(self) -> None:
         """Do nothing: there is nothing to follow."""
@@ -65,7 +65,7 @@ class Viewpoints:
     def renew(self) -> None:
         """Do nothing: the extent is measured with every click."""
 
-    def _look(self, event: Any) -> None:
+    def _place_eye(self, event: Any) -> None:
         """Place the eye of the page that was clicked on."""
         camera, context = event.client.camera, self._context
 

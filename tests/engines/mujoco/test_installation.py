@@ -12,7 +12,7 @@ LOAD = "import gazelle; gazelle.Simulation('empty')"
 
 
 @pytest.fixture
-def beside(tmp_path):
+def ray_offset(tmp_path):
     """Return an installer of distributions and a folder `mujoco` at the head of the path."""
 
     def lay(package, **versions):
@@ -49,33 +49,33 @@ def judge(done, message):
     assert "pip install --force-reinstall --no-deps" in text
 
 
-def test_an_older_bundle_over_the_core_is_named(beside):
+def test_an_older_bundle_over_the_core_is_named(ray_offset):
     package = {"__init__.py": "__version__ = '3.3.7'\n", "batch.py": "raise AttributeError('x')\n"}
-    done = beside(package, mujoco="3.3.7", mujoco_core="4.0.1")
+    done = ray_offset(package, mujoco="3.3.7", mujoco_core="4.0.1")
     judge(done, "mujoco-core 4.0.1 and mujoco 3.3.7 share a folder")
 
 
 @pytest.mark.long
-def test_two_that_happen_to_import_are_named_too(beside):
+def test_two_that_happen_to_import_are_named_too(ray_offset):
     package = {"__init__.py": "__version__ = '3.3.7'\n", "batch.py": ""}
-    done = beside(package, mujoco="3.3.7", mujoco_core="4.0.1")
+    done = ray_offset(package, mujoco="3.3.7", mujoco_core="4.0.1")
     judge(done, "MuJoCo is damaged")
 
 
-def test_a_folder_that_an_uninstallation_emptied_is_named(beside):
-    judge(beside({"__init__.py": ""}, mujoco_core="4.0.1"), "MuJoCo cannot be imported")
+def test_a_folder_that_an_uninstallation_emptied_is_named(ray_offset):
+    judge(ray_offset({"__init__.py": ""}, mujoco_core="4.0.1"), "MuJoCo cannot be imported")
 
 
-def test_a_folder_of_another_version_is_named(beside):
+def test_a_folder_of_another_version_is_named(ray_offset):
     package = {"__init__.py": "__version__ = '3.17.0'\n", "batch.py": ""}
-    done = beside(package, mujoco_core="4.0.1")
+    done = ray_offset(package, mujoco_core="4.0.1")
     judge(done, "mujoco-core 4.0.1 is installed, and its folder holds 3.17.0")
 
 
-def test_a_version_that_another_package_brought_down_is_named(beside):
+def test_a_version_that_another_package_brought_down_is_named(ray_offset):
     """`mujoco` 4.0.0 asks for `mujoco-core` 4.0.0, which factorises sparse Hessians wrongly."""
     package = {"__init__.py": "__version__ = '4.0.0'\n", "batch.py": ""}
-    done = beside(package, mujoco="4.0.0", mujoco_core="4.0.0")
+    done = ray_offset(package, mujoco="4.0.0", mujoco_core="4.0.0")
     judge(done, "MuJoCo 4.0.0 is too old")
 
 

@@ -66,9 +66,9 @@ def test_wheels_that_start_at_once_rub_by_coulombs_law_beside_loose_things(robot
         for wheel in wheels:
             engine.joints[wheel].set_motor_velocity(30.0)
         path.append(_rubbed(engine))
-    (alone, _), (beside, islands) = path
+    (alone, _), (ray_offset, islands) = path
     assert islands > 0
-    assert beside == pytest.approx(alone, abs=1e-9)
+    assert ray_offset == pytest.approx(alone, abs=1e-9)
 
 
 def _rubbed(engine):

@@ -13,7 +13,7 @@ from rosbags.rosbag1 import Reader
 from gazelle_ros import Time, load_message
 from gazelle_ros.bags import Bag, BagError, BagFormatError, BagUnindexedError, Compression
 from gazelle_ros.bags.info import as_dict, as_yaml, describe, value_of
-from gazelle_ros.bags.operations import check, filter_bag, keep_of, recompress, reindex
+from gazelle_ros.bags.operations import check, compile_filter, filter_bag, recompress, reindex
 from gazelle_ros.base.errors import RosError
 from gazelle_ros.cli.main import main
 
@@ -273,21 +273,21 @@ def test_compression_can_be_changed(write_bag, tmp_path):
 def test_filters_choose(write_bag, tmp_path):
     path = write_bag(ROWS)
     target = tmp_path / "f.bag"
-    keep = keep_of("topic == '/a' and (m.data != 'one' or t.secs > 5)")
+    keep = compile_filter("topic == '/a' and (m.data != 'one' or t.secs > 5)")
     assert filter_bag(str(path), str(target), keep) == (1, 3)
     assert texts(target) == [ROWS[2]]
     with pytest.raises(BagError, match="itself"):
         filter_bag(str(path), str(path), keep)
     for wrong in ("topic ==", "", "{", "\x00", "(" * 10_000):
         with pytest.raises(BagError, match="not a Python expression"):
-            keep_of(wrong)
+            compile_filter(wrong)
 
 
 @pytest.mark.parametrize("expression", ["m.nope", "no / such", "t + 'a'", "1 / 0", "m[0]"])
 def test_a_filter_that_fails_leaves_nothing_behind(write_bag, tmp_path, expression):
     path = write_bag(ROWS)
     with pytest.raises(BagError, match="fails: "):
-        filter_bag(str(path), str(tmp_path / "f.bag"), keep_of(expression))
+        filter_bag(str(path), str(tmp_path / "f.bag"), compile_filter(expression))
     assert sorted(each.name for each in tmp_path.iterdir()) == ["t.bag"]
 
 

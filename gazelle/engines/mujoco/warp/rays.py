@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from gazelle.array_types import Floats, Worlds
-from gazelle.engines.mujoco.rays import beside, joined, meet
+from gazelle.engines.mujoco.rays import joined, meet, ray_offset
 from gazelle.engines.mujoco.worlds import RunningWorlds
 from gazelle.engines.range_rays import RangeRays
 from gazelle.engines.state import LinkRow, LinkRows
@@ -40,7 +40,7 @@ class WarpRanges:
         """Return distances now [m], shape (n, finders, rays); the next call may overwrite them."""
         place, rays = self._links.placement(worlds), self._rays_in(worlds)
         at, turned = np.ascontiguousarray(place.position), np.ascontiguousarray(place.quaternion)
-        rays.aim(at, turned, beside(self._run))
+        rays.aim(at, turned, ray_offset(self._run))
         meet(self._run, rays, worlds, signed=True)
         return rays.distance.reshape(-1, *self._rays[0].shape[:2])
 

@@ -24,7 +24,7 @@ Keep = Callable[[str, Any, Time], bool]
 """Takes topic, message and time."""
 
 
-def keep_of(expression: str) -> Keep:
+def compile_filter(expression: str) -> Keep:
     """Compile a function of ``topic``, ``m`` and ``t`` from a Python expression.
 
     Raises:

@@ -147,7 +147,7 @@ class BagRecorder:
                 self._subscribe(topic)
             while not stop.is_set() and not self.done.is_set():
                 if not fixed:
-                    self._look()
+                    self._subscribe_to_new()
                 self._check_time()
                 stop.wait(_LOOK_S if not self.done.is_set() else 0)
         finally:
@@ -170,7 +170,7 @@ class BagRecorder:
         """Return a name in full; a wrong one is an error before there is a file."""
         return names.check(self._node.resolve(names.check(name)))
 
-    def _look(self) -> None:
+    def _subscribe_to_new(self) -> None:
         """Subscribe to topics that are new."""
         try:
             topics = list(self._wanted())

@@ -48,7 +48,7 @@ def engine() -> Any:
     return importlib.import_module("xacro")
 
 
-def looks_old(tag: str, attributes: Mapping[str, str]) -> bool:
+def lacks_prefix(tag: str, attributes: Mapping[str, str]) -> bool:
     """Return whether an element is one of xacro's without the prefix."""
     needed = _KEYWORDS.get(tag)
     return needed is not None and needed <= attributes.keys()
@@ -99,7 +99,7 @@ def prefix(document: Any, report: Report) -> Any:
         children = [child for child in node.childNodes if child.nodeType == child.ELEMENT_NODE]
         open_nodes += reversed(children)
         settings = getattr(node.parentNode, "tagName", "") == "plugin"
-        if looks_old(node.tagName, node.attributes) and not settings:
+        if lacks_prefix(node.tagName, node.attributes) and not settings:
             report(node.tagName, node)
             _rename(node)
     return document

@@ -31,10 +31,15 @@ class OnDemandOutputs:
         self._sources: Sequence[Subscriber] = ()
         self._publishers: Sequence[Publisher] = ()
         self._publishers = [
-            node.advertise(topic, kind, on_connect=self._look, on_disconnect=self._look)
+            node.advertise(
+                topic,
+                kind,
+                on_connect=self._update_subscriptions,
+                on_disconnect=self._update_subscriptions,
+            )
             for topic, kind in topics
         ]
-        self._look("")  # one may have connected before there were all publishers
+        self._update_subscriptions("")  # one may have connected before there were all publishers
 
     @property
     def subscribed(self) -> list[bool]:
@@ -47,7 +52,7 @@ class OnDemandOutputs:
             if message is not None:
                 publisher.publish(message)
 
-    def _look(self, _peer: str) -> None:
+    def _update_subscriptions(self, _peer: str) -> None:
         """Subscribe to the sources or unsubscribe, as a topic has subscribers or none has."""
         with self._lock:
             needed = any(each.num_connections > 0 for each in self._publishers)

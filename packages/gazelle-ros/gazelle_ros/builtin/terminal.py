@@ -73,12 +73,12 @@ def real_terminal(name: str, environment: Mapping[str, str]) -> str | None:
         return None
     for folder in environment.get("PATH", os.defpath).split(os.pathsep):
         found = shutil.which(name, path=folder) if folder else None
-        if found is not None and not _is_ours(found):
+        if found is not None and not _is_builtin_program(found):
             return found
     return None
 
 
-def _is_ours(program: str) -> bool:
+def _is_builtin_program(program: str) -> bool:
     """Return whether it is one of the programs of `gazelle_ros.builtin.on_path`."""
     try:
         with Path(program).open("rb") as stream:

@@ -158,16 +158,16 @@ def _fix(args: argparse.Namespace) -> int:
 
 
 def _filter(args: argparse.Namespace) -> int:
-    from gazelle_ros.bags.operations import filter_bag, keep_of
+    from gazelle_ros.bags.operations import compile_filter, filter_bag
 
     show = None
     if args.shown:
-        shown: Callable[..., Any] = keep_of(args.shown)
+        shown: Callable[..., Any] = compile_filter(args.shown)
 
         def show(good: bool, topic: str, message: Any, stamp: Any) -> None:  # noqa: FBT001
             sys.stdout.write(f"{'MATCH' if good else 'NO MATCH'} {shown(topic, message, stamp)}\n")
 
-    kept, total = filter_bag(args.source, args.target, keep_of(args.expression), show)
+    kept, total = filter_bag(args.source, args.target, compile_filter(args.expression), show)
     sys.stdout.write(f"{args.target}: {kept} of {total} messages\n")
     return 0
 

@@ -133,12 +133,12 @@ def _open_streams() -> bool:
     sys.stdout = sys.stdout or open(1, "w", encoding="utf-8", closefd=False)  # noqa: SIM115
     sys.stderr = sys.stderr or open(2, "w", encoding="utf-8", closefd=False)  # noqa: SIM115
     if isinstance(sys.stdout, io.TextIOWrapper):
-        codecs.register_error(_ANY_TEXT, _encoded_somehow)
+        codecs.register_error(_ANY_TEXT, _encoded)
         sys.stdout.reconfigure(errors=_ANY_TEXT)
     return there
 
 
-def _encoded_somehow(error: UnicodeError) -> tuple[str | bytes, int]:
+def _encoded(error: UnicodeError) -> tuple[str | bytes, int]:
     """Encode names of files, which may be any bytes, and what the terminal's encoding lacks."""
     try:
         return codecs.lookup_error("surrogateescape")(error)

@@ -49,7 +49,7 @@ def run(args: argparse.Namespace) -> int:
     return code
 
 
-def _meant(args: argparse.Namespace) -> list[str]:
+def _matching_types(args: argparse.Namespace) -> list[str]:
     from gazelle_ros.tools.definitions import types_named
     from gazelle_ros.tools.errors import ToolError
 
@@ -63,7 +63,7 @@ def _meant(args: argparse.Namespace) -> list[str]:
 def _show(args: argparse.Namespace) -> int:
     from gazelle_ros.tools.definitions import show_type
 
-    for name in _meant(args):
+    for name in _matching_types(args):
         text = show_type(name, args.kind, raw=args.raw)
         sys.stdout.write(text + "\n" if "/" in args.type else f"[{name}]:\n{text}\n")
     return 0
@@ -72,7 +72,7 @@ def _show(args: argparse.Namespace) -> int:
 def _md5(args: argparse.Namespace) -> int:
     from gazelle_ros.tools.definitions import type_md5
 
-    for name in _meant(args):
+    for name in _matching_types(args):
         md5 = type_md5(name, args.kind)
         sys.stdout.write(f"{md5}\n" if "/" in args.type else f"[{name}]: {md5}\n")
     return 0

@@ -196,7 +196,7 @@ _uses = 0
 _hidden: dict[str, ModuleType] = {}
 
 
-def _is_ours(name: str) -> bool:
+def _is_builtin_program(name: str) -> bool:
     """Return True for a name below one that this finder answers at the top level."""
     top = name.partition(".")[0]
     return top in own_modules() or top in bundled_packages()
@@ -226,7 +226,7 @@ def install() -> Installed:
     global _uses  # noqa: PLW0603  # there is one import system
     _uses += 1
     if _uses == 1:
-        for name in [name for name in sys.modules if _is_ours(name)]:
+        for name in [name for name in sys.modules if _is_builtin_program(name)]:
             _hidden[name] = sys.modules.pop(name)
         namesakes.adapt()
         sys.meta_path.insert(0, _finder)

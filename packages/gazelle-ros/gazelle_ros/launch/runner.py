@@ -316,9 +316,9 @@ class Launch(Closeable):
     def poll(self) -> None:
         """Check all processes once: report ends, respawn what is due."""
         with self._lock:
-            self._look()
+            self._poll()
 
-    def _look(self) -> None:
+    def _poll(self) -> None:
         now = time.monotonic()
         for process in (*self._core, *self.processes):
             code = process.poll()
