@@ -1,4 +1,4 @@
-"""Goals and paths to ROS messages and back; imported for what it teaches."""
+"""Conversions of goals and paths to ROS messages and back, registered on import."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Pictures to ROS messages; imported for what it teaches."""
+"""Conversions of images to ROS messages, registered on import."""
 
 from __future__ import annotations
 

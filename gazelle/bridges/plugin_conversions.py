@@ -1,4 +1,4 @@
-"""Values of plugins' ports to ROS messages and back; imported for what it teaches."""
+"""Conversions of the values of plugin ports to ROS messages and back, registered on import."""
 
 from __future__ import annotations
 

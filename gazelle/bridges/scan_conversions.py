@@ -1,4 +1,4 @@
-"""Values of the common sensors to ROS messages; imported for what it teaches."""
+"""Conversions of the values of common sensors to ROS messages, registered on import."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Readings of plugins' sensors to ROS messages; imported for what it teaches."""
+"""Conversions of the readings of sensor plugins to ROS messages, registered on import."""
 
 from __future__ import annotations
 

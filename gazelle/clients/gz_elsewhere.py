@@ -73,7 +73,7 @@ def elsewhere(options: argparse.Namespace, rest: Sequence[str]) -> int | None:
 
 
 def _has_a_task(options: argparse.Namespace) -> bool:
-    """Return False for a sub-command without what it is to do."""
+    """Return False for a sub-command without its required arguments."""
     needed = {"joint": ("force",), "sdf": ("check", "shown"), "topic": ("listed", *_VERBS)}
     names = needed.get(options.command)
     return names is None or any(getattr(options, name) not in (None, False) for name in names)

@@ -78,7 +78,7 @@ class PerformanceWatch(Closeable):
         self._thread.start()
 
     def close(self) -> None:
-        """Stop looking; what was seen stays."""
+        """Stop sampling; the samples are kept."""
         self._end.set()
         self._thread.join()
         self._subscriber.close()

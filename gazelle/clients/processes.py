@@ -120,7 +120,7 @@ class Processes:
         return node_tools.list_nodes(GraphInspector("clients", self._uri)).splitlines()
 
     def stop(self, name: str) -> None:
-        """Stop what was started here under a name.
+        """Stop the processes that were started under a name.
 
         Raises:
             ClientError: Nothing was.

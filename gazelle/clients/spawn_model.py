@@ -216,7 +216,7 @@ def _source(options: argparse.Namespace) -> str:
 
 @contextlib.contextmanager
 def _speaking() -> Iterator[None]:
-    """Show what is logged as rospy does."""
+    """Print log messages in the format of rospy."""
     screen, former = RosStreamHandler(), _log.level
     _log.addHandler(screen)
     _log.setLevel(logging.INFO)

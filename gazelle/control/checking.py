@@ -66,7 +66,7 @@ def is_controllers(file: Path) -> bool:
 
 
 def check_controllers(path: str | os.PathLike[str], robot: str | os.PathLike[str]) -> list[Problem]:
-    """Load every controller of a YAML file for a robot, and list what is wrong, by lines.
+    """Load every controller of a YAML file for a robot, and list the problems by line.
 
     Args:
         path: Of the file, as ``rosparam load`` takes it.

@@ -1,4 +1,4 @@
-"""The robot's side of control: what can be read and commanded."""
+"""Hardware of a robot: the interfaces that controllers read and command."""
 
 from __future__ import annotations
 

@@ -376,7 +376,7 @@ class ControllerManager:
         return switch
 
     def _go_on(self, switch: Switch) -> None:
-        """Start what can be started now."""
+        """Start the controllers that are ready."""
         self._switch = switch
         entries = [self._loaded[name] for name in switch.start]
         switch.advance(self.hardware, entries, self.now_ns, self._start)

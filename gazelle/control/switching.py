@@ -1,4 +1,4 @@
-"""A switch between controllers, and what stands against it."""
+"""Controller switches, and the reasons that prevent them."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class LoadedController:
 @checked(ControlError)
 @dataclass(slots=True)
 class Switch:
-    """A switch: what was stopped, and what is started when the robot is ready.
+    """A controller switch: stopped controllers, and those to start when the robot is ready.
 
     Attributes:
         start: Names of what is started.
@@ -76,7 +76,7 @@ class Switch:
         now_ns: int,
         start: Callable[[LoadedController], None],
     ) -> None:
-        """Start what the robot is ready for; abort what it will not be ready for."""
+        """Start the controllers that the robot is ready for; abort those that it cannot become ready for."""
         late = 0.0 < self.timeout < (now_ns - self.begun_ns) * 1e-9
         whole = hardware.switch_result()
         for entry in entries:

@@ -19,7 +19,7 @@ from gazelle.control.interfaces import (
 
 @dataclass(frozen=True, slots=True)
 class KnownController:
-    """A row: where the class is, and what it needs of a robot.
+    """A controller type: its class, and the interfaces it requires.
 
     Attributes:
         code: ``module:Class`` in this package.

@@ -224,7 +224,7 @@ class TrajectoryTable:
         self._join(points, _New(times, lasts, polynomials, goal), now, change, rows)
 
     def _join(self, points: Waypoints, new: _New, now: float, change: float, rows: Worlds) -> None:
-        """Append the new segments to what is left of the old ones."""
+        """Append the new segments to the rest of the old ones."""
         count, joints = len(rows), self.start.shape[1]
         old, added = self.start.shape[2], len(points.times)
         first = self._active(now, rows)

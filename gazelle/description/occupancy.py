@@ -1,4 +1,4 @@
-"""Maps of what is free and what is not, as ROS's ``nav_msgs/OccupancyGrid`` has them."""
+"""Occupancy grids, as in ROS's ``nav_msgs/OccupancyGrid``."""
 
 from __future__ import annotations
 

@@ -78,7 +78,7 @@ class Engine(Protocol):
 
     @property
     def world(self) -> World:
-        """The world that runs, with what was spawned and without what was deleted."""
+        """The simulated world, with spawned and without deleted models."""
 
     @property
     def links(self) -> Table[LinkRow, LinkRows]:
@@ -204,7 +204,7 @@ class Engine(Protocol):
         """
 
     def range_kind(self, rays: RangeRays) -> Hashable | None:
-        """Return what is equal for rays that ``range_table`` casts together; None for none."""
+        """Return a key that is equal for rays that ``range_table`` can cast together, or None."""
 
     def range_table(self, rays: Sequence[RangeRays]) -> RangeTable:
         """Return a table of range finders of one kind, or of a single one."""

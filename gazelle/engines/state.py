@@ -1,4 +1,4 @@
-"""The state of an engine: what can be read and set of links, joints and models.
+"""Protocols of an engine's state: readable and writable quantities of links, joints and models.
 
 ``worlds`` arguments are as in ``engine``. Arrays of one row have the shape (n, ...), those of several
 rows the shape (n, rows, ...). Positions are in metres, velocities in m/s and rad/s, both in the world

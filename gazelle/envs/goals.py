@@ -100,7 +100,7 @@ class GoalTable:
 
 
 def _checked(points: Sequence[tuple[float, float]] | Floats) -> Floats:
-    """Return the points as an array of their own, or an error that says what is wrong."""
+    """Return a copy of the points, or an error that describes the fault."""
     try:
         array = np.array(points, dtype=np.float64)
     except (TypeError, ValueError, OverflowError) as error:

@@ -27,7 +27,7 @@ _INNER = "task/"
 
 
 class TaskWrapper(BatchedTask):
-    """A task around another one; a subclass overrides what it changes.
+    """Wrapper of a task; a subclass overrides what it changes.
 
     Args:
         task: The other one; this one closes it.

@@ -10,7 +10,7 @@ from gazelle_ros.base import characters
 
 
 class Report(Protocol):
-    """Takes what is wrong with the text of a file."""
+    """Callback for faults in the text of a file."""
 
     def __call__(
         self, message: str, source: Source, severity: Literal["error", "warning"] = "error"

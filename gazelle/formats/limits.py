@@ -25,7 +25,7 @@ MAX_BYTES = 512 * 2**20
 
 
 def read_bounded(path: Path, most: int = MAX_BYTES) -> bytes:
-    """Return what is in a file.
+    """Return the content of a file.
 
     Raises:
         FormatError: It is larger, or it is a pipe, a socket or a device.

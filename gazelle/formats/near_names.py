@@ -57,7 +57,7 @@ def closest_below(folder: Path, inner: str) -> str | None:
 
 
 def describe_folder(file: Path) -> str:
-    """Describe what is in the folder in which a file was expected, for a message."""
+    """Describe the folder in which a file was expected, for a message."""
     folder = file.absolute().parent
     if not folder.is_dir():
         return f"there is no folder {folder}"

@@ -23,7 +23,7 @@ _MOST_LEAVES: Final = 2_000_000
 @checked(FormatError)
 @dataclass(frozen=True, slots=True, eq=False)
 class Octree:
-    """A map of what is occupied, coarse where it may be.
+    """An octree of occupied space.
 
     Attributes:
         resolution: Edge of its finest leaves [m].

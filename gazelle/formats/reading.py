@@ -97,7 +97,7 @@ class Reading:
         self._keep(Note(message, source, hint))
 
     def fault(self, message: str, node: Parameters, hint: str | None = None) -> None:
-        """Record what is wrong with an element, and what was taken for it.
+        """Record a fault of an element, and the value used instead.
 
         For what the format does not allow, and Gazebo or libsdformat continue with all the same:
         a load warns of it, a check counts it as an error.
@@ -105,14 +105,14 @@ class Reading:
         self._keep(Note(message, node.source, hint, "error"))
 
     def tolerate(self, error: FormatError, taken: str) -> None:
-        """Record an error as a fault that the load continues with, and what was taken."""
+        """Record an error as a fault that does not end the load, and the value used instead."""
         source = Source(error.file, error.line, error.element)
         self._keep(Note(f"{error.message}: {taken}", source, error.hint, "error"))
 
     def misread(
         self, message: str, source: Source, severity: Literal["error", "warning"] = "error"
     ) -> None:
-        """Record what is wrong with the text of a file, as ``xml.parse`` finds it."""
+        """Record a fault in the text of a file, as found by ``xml.parse``."""
         self._keep(Note(message, source, severity=severity))
 
     def _keep(self, note: Note) -> None:

@@ -121,7 +121,7 @@ class Resolver:
         return f"looked in {shown}{state}"
 
     def near_miss(self, uri: str, base: Path | None) -> str | None:
-        """Return a hint that names what is close to such a URI or path; None if nothing is."""
+        """Return a hint with a similar URI or path; None if there is none."""
         return near_miss(uri.strip(), base, self._folder, self._names)
 
     def _folder(self, name: str) -> Path | None:

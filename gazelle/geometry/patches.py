@@ -1,4 +1,4 @@
-"""The polygons of a surface thickened into convex solids, so that what is hollow stays hollow.
+"""Convex solids from the thickened polygons of a surface, so that hollow meshes stay hollow.
 
 A solid keeps to its polygon and grows from there inwards: where a closed body is behind, by
 half of what is there at most; behind a sheet by a skin.

@@ -74,7 +74,7 @@ class Closure:
 
 @dataclass(frozen=True, slots=True)
 class KinematicTree:
-    """A model taken apart: parents before children, and what is left over."""
+    """A model as a kinematic tree: links with parents first, and remaining loop closures."""
 
     bodies: list[TreeLink]
     closures: list[Closure]

@@ -1,4 +1,4 @@
-"""Compiled modules: which build of them this process uses, and what they share.
+"""Compiled modules: the choice of their build, and shared parts.
 
 A module that says ``import cython`` at its head is a kernel module: Cython in pure-Python mode.
 It is compiled when the package is built, once for each *build* below, into a folder of that name

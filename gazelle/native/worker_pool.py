@@ -34,7 +34,7 @@ class _Worker:
         self._go.release()
 
     def outcome(self) -> tuple[Any, BaseException | None]:
-        """Wait for what ``start`` began: what it returned, and what it or Ctrl-C raised."""
+        """Wait for the work of ``start``; returns its result and the exception of it or of Ctrl-C."""
         stop = None
         while not self._over:  # Ctrl-C may come when the lock has just been acquired
             try:
@@ -84,7 +84,7 @@ class WorkerPool:
         weakref.finalize(self, _end, self._workers)
 
     def share(self, work: Callable[[int, int, int], Any], count: int, least: int) -> list[Any]:
-        """Call ``work(first, last, part)`` for parts of ``range(count)``; what they return.
+        """Call ``work(first, last, part)`` for parts of ``range(count)``; returns their results.
 
         Args:
             work: Called at once by several threads, each with a part of its own.
@@ -116,7 +116,7 @@ class WorkerPool:
             )
 
     def call(self, work: Callable[[int], Any], parts: int) -> list[Any]:
-        """Call ``work(part)`` for at most a given number of parts at once, at least one; what they return.
+        """Call ``work(part)`` for at most a given number of parts at once, at least one; returns their results.
 
         Args:
             work: Called by several threads, each with a number of its own from 0 on.

@@ -1,4 +1,4 @@
-"""Frontiers: where free ground on a map ends in what is not known.
+"""Frontiers: borders between free and unknown cells of a map.
 
 Method: B. Yamauchi, "A frontier-based approach for autonomous exploration" (1997), with the rules and
 costs of ``explore_lite``.

@@ -1,4 +1,4 @@
-"""Limits of a mobile robot: its speeds, the room it needs, and sizes of what it remembers."""
+"""Limits of a mobile robot: speeds, clearances, and the size of its map."""
 
 from __future__ import annotations
 

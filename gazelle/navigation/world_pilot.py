@@ -284,7 +284,7 @@ def _observe(
     scan: PlanarScan,
     height: float,
 ) -> None:
-    """Show what was seen to the layers that see."""
+    """Pass a scan to the layers that use observations."""
     cos, sin = math.cos(pose[2]), math.sin(pose[2])
     turn = np.array([[cos, sin], [-sin, cos]])
     moved = points.copy()

@@ -1,4 +1,4 @@
-"""Planning scenes: a robot, what stands around it, and which of its states are in collision."""
+"""Planning scenes: a robot, the objects around it, and collision checks of its states."""
 
 from __future__ import annotations
 

@@ -151,7 +151,7 @@ class Transporter(WorldPlugin):
         return any(pad.automatic for pad in self._pads.values()) or bool(self._called.any())
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  it looks at every step
-        """Move what is on pads to their targets."""
+        """Move the models on pads to their targets."""
         engine = self._simulation.engine
         for robot in self._simulation.robots.values():
             if robot.description.static or not robot.links:

@@ -204,7 +204,7 @@ class TriggeredCameraPlugin(CameraPlugin):
 
 
 class ThermalCameraPlugin(CameraPlugin):
-    """Grey pictures in which what is pure red is hot, as Hector's plugins have them."""
+    """Thermal images as in Hector's plugins: grey, with pure red as hot."""
 
     def open(self, camera: Camera, settings: CameraSettings) -> None:
         """Open the ports."""

@@ -22,7 +22,7 @@ _LEAST_FORCE = 1e-6
 
 @dataclass(slots=True)
 class _Arm:
-    """A palm, its fingers, and what they hold.
+    """A palm, its fingers, and the held object.
 
     Attributes:
         palm: Link that objects are held to.

@@ -106,7 +106,7 @@ class SensorErrors:
         return self._drifted
 
     def tuning(self, topic: str) -> Tuning:
-        """Return the tuning of the numbers; axes share what is set, and report their mean."""
+        """Return the dynamic_reconfigure parameters; a set value applies to all axes, their mean is reported."""
         return Tuning(topic, _TUNABLES, self._tune, self._tuned)
 
     def _tune(self, values: Mapping[str, float]) -> None:

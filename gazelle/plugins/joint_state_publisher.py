@@ -76,5 +76,5 @@ class JointStateSystem(PublisherSystem[JointStatePublisher]):
         ]
 
     def publish(self, plugin: JointStatePublisher, measured: JointStates) -> None:
-        """Publish what was measured of one plugin's joints."""
+        """Publish the measured joints of one plugin."""
         plugin.output.publish_computed(measured)

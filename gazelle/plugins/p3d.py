@@ -79,7 +79,7 @@ class P3D(Noisy, Publishing):
         return poses_of([self])[0]
 
     def seen(self, place: Sequence[Placement], motion: Sequence[Motion]) -> TruePose:
-        """Return what is published, with new noise.
+        """Return the values to publish, with new noise.
 
         Args:
             place: Of its ``frames``.
@@ -128,7 +128,7 @@ class P3DSystem(PublisherSystem[P3D]):
         return poses_of(plugins)
 
     def publish(self, plugin: P3D, measured: TruePose) -> None:
-        """Publish what was measured of one body."""
+        """Publish the measured state of one body."""
         plugin.output.publish_computed(measured)
 
 

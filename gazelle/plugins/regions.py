@@ -16,7 +16,7 @@ from gazelle.simulation import Input, Simulation, WorldPlugin, absolute
 
 @dataclass(frozen=True, slots=True)
 class _Region:
-    """A box, and what is said where while a model's origin is in it.
+    """A region: a box, and the topic and message for models whose origin is in it.
 
     Attributes:
         least: One corner [m].

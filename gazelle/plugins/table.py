@@ -16,7 +16,7 @@ def _simulated(files: str, what: str, code: str) -> KnownPlugin:
 
 
 def _left_out(files: str, what: str, missing: str) -> KnownPlugin:
-    """Return the row of a plugin that is known and not simulated; a warning names what is missing."""
+    """Return the row of a known plugin that is not simulated; a warning names the missing parts."""
     return KnownPlugin(tuple(files.split()), what, missing=missing)
 
 

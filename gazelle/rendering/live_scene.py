@@ -15,7 +15,7 @@ from gazelle.rendering.renderer import Frames, Renderer
 
 @checked(EngineError)
 class LiveScene:
-    """Draws an engine's worlds, and keeps what it needs while the models stay the same.
+    """Renderer of an engine's worlds; its scene is cached while the models stay the same.
 
     Args:
         engine: Knows where the links are.

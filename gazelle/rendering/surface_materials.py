@@ -34,7 +34,7 @@ class SurfaceMaterial:
 
 
 def surface_material(visual: Visual, piece: ShapePiece) -> SurfaceMaterial:
-    """Return the material of a piece of a visual: its own precedes what is in the mesh file."""
+    """Return the material of a piece of a visual: that of the visual, else that of the mesh file."""
     clear = 1.0 - visual.transparency
     material = visual.material
     if material is None:

@@ -49,7 +49,7 @@ def check_worlds(worlds: Worlds | None, nworld: int) -> None:
 
 
 def _counts(sensor: Sensor) -> Iterator[tuple[str, float, int]]:
-    """Yield what is counted, how many there are, and how many there may be."""
+    """Yield the name, the number and the limit of each counted quantity."""
     if sensor.lidar is not None:
         yield "rays", _rays(sensor.lidar.horizontal) * _rays(sensor.lidar.vertical), MAX_RAYS
     for camera in sensor.cameras:

@@ -91,7 +91,7 @@ class ControlLoop(ModelPlugin):
     # -- what is done in steps --------------------------------------------------------------
 
     def _call(self, work: Callable[[], R], /) -> R:
-        """Call a function between two steps that may change what is due."""
+        """Call a function between two steps; it may change what is due."""
         with self._robot.simulation.lock:
             self._invalidate()
             return work()

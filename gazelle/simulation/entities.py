@@ -38,7 +38,7 @@ class EntityManager:
         self.plugins: list[ScheduledPlugin] = []
 
     def spawn(self, model: Model, namespace: str) -> Robot:
-        """Add a model to every world; what cannot be added leaves nothing behind."""
+        """Add a model to every world; on failure no part of it remains."""
         if model.name in self.robots:
             raise SimulationError(
                 f"there is a model '{model.name}' already",

@@ -282,7 +282,7 @@ class PhysicsProperties:
 
     @property
     def contacts(self) -> str | None:
-        """``exact``: what is held does not creep; ``fast``: for robots that drive.
+        """Presets of contacts: ``exact``, without creep, for manipulation; ``fast`` for driving robots.
 
         None leaves it to ``friction_model``, or else to the engine: exact where something
         is free. Friction is the same cone or pyramid as with ``friction_model``, which this

@@ -23,7 +23,7 @@ class WorldPlugin(BasePlugin):
     belongs_into = "world"
 
     def load(self, simulation: Simulation, parameters: Parameters) -> None:
-        """Start: read the parameters, keep what is needed."""
+        """Start: read the parameters and store references."""
 
 
 class SystemPlugin(WorldPlugin):

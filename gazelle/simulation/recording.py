@@ -1,4 +1,4 @@
-"""Write down a run: what was done to the engine, and a hash of the state after every step.
+"""Recordings of runs: the calls to the engine, and a hash of the state after every step.
 
 A recording is text, one JSON object a line, and holds no code. The first line says what ran
 and its state; every other line is one change, in order: a call of the engine, or entries of its state

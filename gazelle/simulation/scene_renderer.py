@@ -12,7 +12,7 @@ from gazelle.simulation.running_state import RunningState
 
 
 class SceneRenderer:
-    """Renders a running world, and keeps what it needs while the models stay the same."""
+    """Renderer of a running world; its scene is cached while the models stay the same."""
 
     def __init__(self) -> None:
         self._models: tuple[Model, ...] = ()

@@ -20,7 +20,7 @@ T = TypeVar("T")
 
 @dataclass(slots=True)
 class ScheduledPlugin:
-    """A loaded plugin, what it is on, and when it is due; no schedule means never.
+    """A loaded plugin, its owner, and its schedule; without one it is never updated.
 
     One that raises is detached with a warning: it is never called again, and all else continues.
     """
@@ -84,7 +84,7 @@ class ScheduledPlugin:
         return any(output.has_subscribers for output in self.plugin.published)
 
     def publish(self, system: PluginSystem[Any], measured: Any) -> None:
-        """Publish what was measured for it."""
+        """Publish its measured values."""
         self._guarded(lambda: system.publish(self.plugin, measured), "when publishing")
 
     def measure(self, system: PluginSystem[Any]) -> None:

@@ -59,7 +59,7 @@ class ScheduledSystem:
             return None
 
     def sync(self) -> None:
-        """Take over what was computed in steps."""
+        """Read the results of native steps."""
         try:
             self._system.sync()
         except Exception as error:  # noqa: BLE001  a plugin's fault is not the simulation's
@@ -160,7 +160,7 @@ class ScheduledSystem:
 def make_systems(
     entries: Sequence[ScheduledPlugin], nworld: int
 ) -> list[ScheduledPlugin | ScheduledSystem]:
-    """Return what is updated in turn, systems in the place of the first of their plugins.
+    """Return the update order, with systems in the place of the first of their plugins.
 
     Args:
         entries: Plugins, in the order in which they were loaded.
@@ -195,7 +195,7 @@ def make_system(entries: Sequence[ScheduledPlugin], nworld: int) -> ScheduledSys
 
 
 def _due_with(entry: ScheduledPlugin) -> Hashable | None:
-    """Return what is equal for the rows of one system; None for a plugin without a system."""
+    """Return a key that is equal for the rows of one system; None for a plugin without a system."""
     kind = entry.plugin.system
     if kind is None or entry.schedule is None or entry.detached:
         return None

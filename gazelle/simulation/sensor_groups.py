@@ -31,7 +31,7 @@ class GroupedUnit(Protocol):
         """Time between two measurements in turn [s]."""
 
     def system(self) -> Hashable | None:
-        """Return what is equal for those in one system now; None for one by itself."""
+        """Return a key that is equal for sensors of one system; None for a single one."""
 
     def join(self, group: SensorGroup, part: int) -> None:
         """Join a group that measures together."""
@@ -132,6 +132,6 @@ def group_sensors(
 
 
 def _measured_with(unit: GroupedUnit) -> Hashable | None:
-    """Return what is equal for sensors that are measured together; None for one by itself."""
+    """Return a key that is equal for sensors measured together; None for a single one."""
     system = unit.system()
     return None if system is None else (system, unit.has_subscribers and bool(unit.model.by_system))

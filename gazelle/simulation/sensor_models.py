@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class SensorMount:
-    """A sensor and what it is on.
+    """A sensor and its link or joint.
 
     Attributes:
         engine: Of the simulation.

@@ -205,7 +205,7 @@ class SampledSensor:
     # -- measuring together ------------------------------------------------------------
 
     def system(self) -> Hashable | None:
-        """Return what is equal for those that a ``SensorGroup`` measures now; None for none."""
+        """Return a key that is equal for sensors that a ``SensorGroup`` can measure, or None."""
         if self._values is None or not isinstance(self._model, GroupedModel):
             return None
         system = self._model.system()

@@ -1,4 +1,4 @@
-"""The robot's side of control in a simulation: what it is made of, and what it has to do."""
+"""Base class of simulated robot hardware for ros_control."""
 
 from __future__ import annotations
 

@@ -130,7 +130,7 @@ class Simulation(Closeable):
 
     @property
     def world(self) -> World:
-        """The world that runs, with what was spawned and without what was deleted."""
+        """The simulated world, with spawned and without deleted models."""
         return self._engine.world
 
     @property

@@ -138,7 +138,7 @@ class StepLoop:
                 lock.yield_lock()
 
     def _advance(self, most: int) -> int:
-        """Run what is due, then step towards the next due time; returns the steps."""
+        """Run due updates, then step towards the next due time; returns the steps."""
         clock, applied = self._simulation.clock, self._applied_wrenches
         plugins = self._update_plugins()
         plan = self._plan
@@ -172,7 +172,7 @@ class StepLoop:
         return steps
 
     def _update_plugins(self) -> Sequence[Scheduled]:
-        """Run what is due from Python; returns what is not run by the engine."""
+        """Run due updates of Python plugins; returns those that the engine does not run."""
         simulation = self._simulation
         updated: set[int] = set()
         while True:

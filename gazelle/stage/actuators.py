@@ -1,4 +1,4 @@
-"""Actuators: what is on them is moved along or about an axis."""
+"""Actuators, which move mounted models along or about an axis."""
 
 from __future__ import annotations
 

@@ -12,7 +12,7 @@ from gazelle.native.system import System
 
 
 class FleetController(Protocol):
-    """Drives robots, or changes what they see."""
+    """Controller of all robots of a fleet: drives them, or modifies their readings."""
 
     def update(self) -> None:
         """Update the robots between two steps: read scans, write commands."""

@@ -1,4 +1,4 @@
-"""Straight looks from one point: what is met first, of all outlines at a height."""
+"""Rays from one point against all outlines at a height."""
 
 from __future__ import annotations
 

@@ -27,7 +27,7 @@ class RangerController(FleetController):
         self.rebind()
 
     def rebind(self) -> None:
-        """Find the robots and what they see with among all."""
+        """Find the robots and their rangers."""
         simulation = self._simulation
         worlds = np.arange(simulation.nworld, dtype=np.int64)[:, None]
         self._bodies = (worlds * simulation.fleet.nbody + self._own).ravel()

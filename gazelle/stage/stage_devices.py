@@ -31,7 +31,7 @@ from gazelle.stage.stage_bodies import StageBodies
 
 @checked(SimulationError)
 class StageDevices(StageBodies):
-    """The devices on robots: what they see and feel, and what moves on them.
+    """The devices of robots: sensors and actuators.
 
     Cameras, bumpers, fiducial and blob finders are made when they are used.
     """

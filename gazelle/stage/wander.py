@@ -40,7 +40,7 @@ class Wander(RangerController):
         self._seed = int(key >> np.uint64(1))
 
     def rebind(self) -> None:
-        """Find the robots and what they see with among all."""
+        """Find the robots and their rangers."""
         super().rebind()
         self._made: tuple[Floats, Wandering] | None = None
 

@@ -81,7 +81,7 @@ _OF_TASKS: dict[tuple[str, str], dict[str, Any]] = {
 
 
 def plain_recipe(task: str, algo: str) -> Recipe:
-    """Return the recipe of an algorithm, with what is known of it on a task.
+    """Return the recipe of an algorithm, with tuned values for a task.
 
     Args:
         task: The task's name, without ``Continuous``.

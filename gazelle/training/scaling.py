@@ -104,7 +104,7 @@ class ObservationScale:
         tally[_COUNT] = total
 
     def refresh(self) -> bool:
-        """Scale by what was observed so far; call it where no rollout is under way.
+        """Update the scaling from the observations so far; call it between rollouts.
 
         Returns:
             Whether this was the first time, and changed something.

@@ -32,7 +32,7 @@ _BEHIND = np.array([-1.6, -1.0, 1.1])  # from where a model is followed [m]
 
 @checked(Error)
 class SceneCamera:
-    """Draws what is seen of a simulation from somewhere, by the rasteriser.
+    """Camera that renders a simulation with the rasteriser.
 
     Args:
         simulation: Simulation to view.
@@ -136,7 +136,7 @@ class SceneCamera:
 
 
 def _candidate_offsets() -> Iterator[Floats]:
-    """Yield where a model may be looked at from, relative to it [m], what is usual first."""
+    """Yield camera positions relative to a model [m], the default first."""
     for share, lift in ((1.0, 0.0), (1.0, 0.8), (0.5, 0.0), (0.5, 0.8), (0.3, 1.0)):
         for eighth in (0, 1, -1, 2, -2, 3, -3, 4):
             turn = math.pi / 4.0 * eighth

@@ -1,4 +1,4 @@
-"""Distance to what is drawn along a line of sight, with any engine."""
+"""Distance to the nearest visual along a ray, with any engine."""
 
 from __future__ import annotations
 

@@ -35,7 +35,7 @@ class FilmSource(Closeable):
         """Return the present picture, shape (height, width, 3)."""
 
     def close(self) -> None:
-        """Release what it holds."""
+        """Release resources."""
 
 
 class SimulationSource(FilmSource):

@@ -64,7 +64,7 @@ class ModelServices:
     def _put(
         self, found: Model | Light | str, request: gazebo_msgs.srv.SpawnModelRequest
     ) -> Answer:
-        """Spawn what was found in the text, if anything; frames come first, as in Gazebo."""
+        """Spawn the models and lights of a description; frames come first, as in Gazebo."""
         pose = self._pose(request)
         if pose is None:
             return no(f"SpawnModel: {_NO_FRAME}")

@@ -1,4 +1,4 @@
-"""A costmap on a graph: what feeds it, and what it publishes."""
+"""ROS topics of a costmap: its inputs and outputs."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ class CostmapTopics:
         self._updated_ns = -(1 << 62)
 
     def missing(self) -> list[str]:
-        """Return what it waits for, besides frames."""
+        """Return the missing inputs, besides frames."""
         return [
             f"a map on {self._node.resolve(topic)} (map_server or a SLAM node sends it)"
             for name, topic in self._setup.map_topics.items()

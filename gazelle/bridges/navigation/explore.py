@@ -153,7 +153,7 @@ class ExploreNode:
             self._costs[y : y + high, x : x + wide] = _costs_of(cells).reshape(high, wide)
 
     def _missing(self) -> list[str]:
-        """Return what it waits for."""
+        """Return the missing inputs."""
         found = []
         grid = self._grid
         if grid is None:

@@ -165,7 +165,7 @@ class MujocoEngine:
 
     @property
     def world(self) -> World:
-        """The world that runs, with what was spawned and without what was deleted."""
+        """The simulated world, with spawned and without deleted models."""
         return self._run.world
 
     def prepare(self) -> None:
@@ -195,7 +195,7 @@ class MujocoEngine:
             self._run.stale = True
 
     def range_kind(self, rays: RangeRays) -> Hashable | None:
-        """Return what is equal for rays that ``range_table`` casts together."""
+        """Return a key that is equal for rays that ``range_table`` can cast together."""
         return len(rays.origins)
 
     def range_table(self, rays: Sequence[RangeRays]) -> RangeTable:

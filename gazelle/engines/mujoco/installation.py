@@ -26,7 +26,7 @@ _REPAIR_HINT = (
 
 
 def check_installation() -> None:
-    """Raise what is wrong with the installed MuJoCo, if anything.
+    """Raise an error if the installed MuJoCo cannot be used.
 
     Raises:
         EngineError: Files of two versions are mixed, or the version is too old.
@@ -72,7 +72,7 @@ _WARP_HINT = (
 
 
 def check_packages() -> None:
-    """Raise what is missing or does not fit, if anything, and start Warp silently.
+    """Raise an error if a package is missing or incompatible, and start Warp without its log.
 
     Raises:
         EngineError: A package is missing, cannot be imported, or another MuJoCo lies over Gazelle's.

@@ -1,4 +1,4 @@
-"""The worlds that run in MuJoCo: what was compiled, its state, and when it is compiled again."""
+"""Running MuJoCo worlds: the compiled model, its state, and recompilation."""
 
 from __future__ import annotations
 
@@ -175,7 +175,7 @@ class RunningWorlds:
 
     @property
     def world(self) -> World:
-        """The world that runs, with what was spawned and without what was deleted."""
+        """The simulated world, with spawned and without deleted models."""
         return self.latest.world
 
     # -- compiling ---------------------------------------------------------------------

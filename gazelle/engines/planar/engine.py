@@ -120,7 +120,7 @@ class PlanarEngine:
 
     @property
     def world(self) -> World:
-        """The world that runs, with what was spawned and without what was deleted."""
+        """The simulated world, with spawned and without deleted models."""
         return self._run.recipe.world
 
     @property

@@ -62,7 +62,7 @@ class PlanarRays:
         return kept
 
     def range_kind(self, rays: RangeRays) -> Hashable | None:
-        """Return what is equal for rays that ``range_table`` casts together."""
+        """Return a key that is equal for rays that ``range_table`` can cast together."""
         try:
             found = self.rays_on_body(rays)
         except EngineError:

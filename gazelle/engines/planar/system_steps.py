@@ -15,7 +15,7 @@ _WORTH = 4  # times what is worth a thread: from so much work on other threads a
 
 
 class SystemSteps:
-    """Makes steps of a fleet and of joints; what it is made of is kept from call to call.
+    """Steps a fleet and joints; its native loop is kept between calls.
 
     Args:
         fleet: Moves bodies.

@@ -183,7 +183,7 @@ class DriveTask(DestinationTask):
         return {"position": place, "goal": goal, "distance": distance_to(place, self._goal)}
 
     def _ranges(self, worlds: Worlds | None) -> NDArray[Any]:
-        """Return ranges [m]; what is too near to measure is next to nothing.
+        """Return ranges [m]; those below the minimum range are nearly zero.
 
         openai_ros takes that (-inf) for nothing in range, so a base that touches a wall would continue.
         """

@@ -1,4 +1,4 @@
-"""Sensors that cannot see what they should."""
+"""Checks of sensors that cannot see their surroundings."""
 
 from __future__ import annotations
 

@@ -131,7 +131,7 @@ _LOOKS = {"texture", "blend", "use_terrain_paging"}
 
 
 def read_heightmap(node: Parameters, reading: Reading) -> Heightmap:
-    """Read ``<heightmap><uri><size><pos><sampling>``; what it looks like is kept as it is."""
+    """Read ``<heightmap><uri><size><pos><sampling>``; its textures are kept unread."""
     uri = values.word(node, "uri")
     return Heightmap(
         uri=uri,

@@ -23,7 +23,7 @@ _READ_ATTRIBUTES = {
 
 
 def leftover(node: Parameters, pattern: Pattern) -> Parameters:
-    """Return the element without what the pattern names, and without what is empty then."""
+    """Return the element without the parts that a pattern names, and without parts that become empty."""
     taken = {key[1:] for key in pattern if key.startswith("@")}
     children = (
         _left(child, pattern[child.tag]) if child.tag in pattern else child

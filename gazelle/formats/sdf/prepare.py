@@ -1,4 +1,4 @@
-"""A ``<world>`` with what stands for models written out as models.
+"""Expansion of the elements of a ``<world>`` that stand for models.
 
 Actors, populations, and what the first ``<state>`` says was added to or taken from the
 world become plain elements, or go, before anything is read.

@@ -1,4 +1,4 @@
-"""A costmap made of layers: what it costs a robot to be in each cell of a grid."""
+"""A layered costmap: the cost of a robot in each cell of a grid."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class Layer(ABC):
 
     @abstractmethod
     def update_bounds(self, costmap: Costmap, pose: Pose2, region: CostmapBounds) -> None:
-        """Extend the region by what has changed."""
+        """Extend the region by the changed cells."""
 
     @abstractmethod
     def update_costs(self, costmap: Costmap, window: Window) -> None:
@@ -243,7 +243,7 @@ class Costmap:
 
 
 def roll(cells: Bytes, columns: int, rows: int, default: int) -> None:
-    """Move what is on a grid opposite to its window's motion; what comes in is ``default``."""
+    """Shift the content of a grid against the motion of its window; new cells are ``default``."""
     high, wide = cells.shape
     kept = cells.copy()
     cells.fill(default)
@@ -258,6 +258,6 @@ def roll(cells: Bytes, columns: int, rows: int, default: int) -> None:
 
 
 def raise_to(cells: Bytes, layer: Bytes) -> None:
-    """Write a layer's costs where they are higher, in place; what it does not know changes nothing."""
+    """Write a layer's costs where they are higher, in place; unknown cells change nothing."""
     better = (layer != NO_INFORMATION) & ((cells == NO_INFORMATION) | (cells < layer))
     np.copyto(cells, layer, where=better)

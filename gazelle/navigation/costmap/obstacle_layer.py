@@ -1,4 +1,4 @@
-"""The layer of what sensors see: points become obstacles, and what is before them free."""
+"""The obstacle layer: marks sensor hits as obstacles, and clears the cells before them."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class Observation:
 @checked(Error)
 @dataclass(slots=True)
 class ObservationSource:
-    """A sensor, and how much of what it sees counts.
+    """An observation source: a sensor, and the ranges and heights of its points that are used.
 
     Attributes:
         marking: Whether what it sees is an obstacle.
@@ -125,7 +125,7 @@ class ObstacleLayer(Layer):
         self.cells = np.full(costmap.cells.shape, costmap.default, np.uint8)
 
     def moved(self, costmap: Costmap, columns: int, rows: int) -> None:
-        """Keep what is still in the window."""
+        """Keep the cells that remain in the window."""
         roll(self.cells, columns, rows, costmap.default)
         self._all = True
 
@@ -166,7 +166,7 @@ class ObstacleLayer(Layer):
             self._all = False
 
     def update_costs(self, costmap: Costmap, window: Window) -> None:
-        """Write what was seen."""
+        """Write the observations."""
         if self._footprint_clearing:
             _fill(self.cells, costmap, self._outline, FREE_SPACE)
         layer, target = self.cells[window.slices], costmap.cells[window.slices]

@@ -77,7 +77,7 @@ class VoxelLayer(ObstacleLayer):
         self._unknown = np.full(self.cells.shape, (1 << self._layers) - 1, np.int32)
 
     def moved(self, costmap: Costmap, columns: int, rows: int) -> None:
-        """Keep what is still in the window."""
+        """Keep the cells that remain in the window."""
         super().moved(costmap, columns, rows)
         high, wide = self.cells.shape
         kept = self._marks, self._unknown

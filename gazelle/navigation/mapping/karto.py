@@ -74,7 +74,7 @@ class _Keyframe:
 
 @checked(Error, after=True)
 class KartoSlam:
-    """Scans at poses, and what is known of these.
+    """The pose graph: scans at poses, and constraints between them.
 
     Args:
         settings: As of ``slam_karto``.

@@ -1,4 +1,4 @@
-"""Parameters of ``move_base``, and what it was made of from them."""
+"""Parameters of ``move_base``, and the planners created from them."""
 
 from __future__ import annotations
 

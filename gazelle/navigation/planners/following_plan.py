@@ -19,7 +19,7 @@ _PASSED = 1.0
 
 @checked(Error, after=True)
 class PlanFollower(LocalPlannerPlugin):
-    """Holds a plan and cuts out of it what is near the robot.
+    """Holds a plan and returns its part near the robot.
 
     Attributes:
         prune: Whether poses that were passed are forgotten.

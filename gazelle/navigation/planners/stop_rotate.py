@@ -140,7 +140,7 @@ class StopRotate:
         return x, y, turn
 
     def _turn(self, left: float, now: float) -> float:
-        """Return the turning rate for what is left to turn."""
+        """Return the turning rate for the remaining angle."""
         own = self.limits
         rate = min(own.max_vel_theta, max(own.min_vel_theta, abs(left)))
         step = own.acc_lim_theta * self._period

@@ -48,7 +48,7 @@ class ActuatorTopics:
         return receive
 
     def publish(self) -> None:
-        """Publish what has subscribers."""
+        """Publish the topics with subscribers."""
         for which, publisher in enumerate(self._publishers):
             if publisher.has_subscribers:
                 position = self._actuator(which).position[self._world]

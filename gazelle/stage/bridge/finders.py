@@ -48,7 +48,7 @@ class FinderTopics:
                 self._topics.append(_Topic(publisher, fill(which, device)))
 
     def publish(self, stamp: Time) -> None:
-        """Publish what has subscribers."""
+        """Publish the topics with subscribers."""
         for topic in self._topics:
             if topic.publisher.has_subscribers:
                 message: Any = topic.publisher.message_class()

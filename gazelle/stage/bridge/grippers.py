@@ -42,7 +42,7 @@ class GripperTopics:
         return receive
 
     def publish(self, stamp: Time) -> None:
-        """Publish what has subscribers."""
+        """Publish the topics with subscribers."""
         for which, publisher in enumerate(self._publishers):
             if publisher.has_subscribers:
                 state = self._simulation.gripper(self._robot.name, which).state(self._world)

@@ -31,7 +31,7 @@ class StageClock(Protocol):
         """Return the simulated time as a time of the graph."""
 
     def publish(self) -> None:
-        """Publish what is true now."""
+        """Publish the current values."""
 
     def rewind(self) -> None:
         """Start over, time too."""

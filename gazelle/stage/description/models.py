@@ -184,7 +184,7 @@ class StagePower:
 @checked(FormatError)
 @dataclass(frozen=True, slots=True)
 class StageController:
-    """``ctrl``: a controller by the name of its library, and what it is started with."""
+    """``ctrl``: a controller by the name of its library, and its arguments."""
 
     name: str
     arguments: str = ""

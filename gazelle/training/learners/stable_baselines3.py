@@ -1,4 +1,4 @@
-"""More algorithms of Stable-Baselines3 and sb3-contrib, by name, with what they themselves take."""
+"""Further algorithms of Stable-Baselines3 and sb3-contrib, by name, with their own arguments."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The program of a worker process: answers on its standard output what comes on its input."""
+"""The program of a worker process, which answers requests on standard input."""
 
 from __future__ import annotations
 

@@ -161,7 +161,7 @@ class DisplayList:
             display.pause()
 
     def draw(self) -> None:
-        """Draw what is new, all at its place."""
+        """Draw new messages at their places."""
         while self._requests:
             self._requests.popleft()()
         fixed = self._context.fixed
@@ -194,7 +194,7 @@ class DisplayList:
             self.topics[topic].restore(saved)
 
     def _forget(self, name: str) -> None:
-        """Remove the robot of a parameter, or what was wrong with it."""
+        """Remove the robot of a parameter, or its error."""
         self._refused.pop(name, None)
         if name in self.robots:
             self.robots.pop(name).remove()

@@ -44,7 +44,7 @@ _TARGETS = {
 
 
 class PointerTools:
-    """Choice of a tool, and what it does.
+    """The tools of the pointer, and the choice of one.
 
     Args:
         context: Of the page.
@@ -117,7 +117,7 @@ class PointerTools:
         self._context.guarded(lambda: self._finish(start, end))
 
     def _finish(self, start: Floats, end: Floats) -> None:
-        """Publish what was pointed at, and give the mouse back to the camera."""
+        """Publish the chosen point or pose, and return the mouse to the camera."""
         tool = self.tool
         if tool == MOVE:
             return

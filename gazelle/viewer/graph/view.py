@@ -160,7 +160,7 @@ class GraphView(Closeable):
             self._stop.wait(_PERIOD)
 
     def _discover(self) -> None:
-        """Find what is new on the graph, and report what is wrong."""
+        """Find new topics of the graph, and report errors."""
         displays, context = self._displays, self._context
         displays.discover()
         self._interactive.discover(dict(context.node.master.topic_types()))

@@ -62,7 +62,7 @@ class InsertTools:
         """Do nothing: there is nothing to show."""
 
     def renew(self) -> None:
-        """Do nothing: what can be inserted stays the same."""
+        """Do nothing; the insertable models do not change."""
 
     def spawn(self) -> None:
         """Insert the chosen model at the requested place, or at the nearest free one."""

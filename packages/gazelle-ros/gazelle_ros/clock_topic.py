@@ -1,4 +1,4 @@
-"""The clock of a node: wall time, or what comes on ``/clock``."""
+"""The clock of a node: wall time, or the time on ``/clock``."""
 
 from __future__ import annotations
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class NetworkLimits:
-    """Bounds on what comes from the network."""
+    """Limits on data from the network."""
 
     message_bytes: int = 1_000_000_000
     """Longest message, request or response; the bound of the C++ client library."""

@@ -94,7 +94,7 @@ class EventLoop:
         return timer
 
     def run(self, function: Callable[[], Any], timeout: float = 10.0) -> Any:
-        """Run `function` on the loop's thread and wait for what it returns or raises.
+        """Run `function` on the loop's thread and wait for its result or exception.
 
         Raises:
             TimeoutError: The loop does not answer.

@@ -1,4 +1,4 @@
-"""Graph resource names: what is legal, how they resolve, and how they are remapped.
+"""Graph resource names: validation, resolution and remapping.
 
 Rules: http://wiki.ros.org/Names and http://wiki.ros.org/Remapping%20Arguments.
 """

@@ -142,7 +142,7 @@ class NodeParameters:
         return copy.deepcopy(value)
 
     def _apply(self, key: str, value: Any) -> bool:
-        """Update what is cached of `key`, above it or below it; call the hooks."""
+        """Update the cached values of `key` and of keys above or below it; call the hooks."""
         calls: list[tuple[ParameterHook, str]] = []
         found = False
         with self._lock:

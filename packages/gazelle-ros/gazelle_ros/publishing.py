@@ -55,7 +55,7 @@ class LocalLink:
         self.same_class = subscription.takes(publication.message_class)
 
     def send(self, message: Any, data: bytes | None) -> None:
-        """Deliver the object if `data` is None, else what it was serialised to."""
+        """Deliver the object if `data` is None, else its serialised bytes."""
         self.messages += 1
         self.subscription.receive_local(self, message, data)
 

@@ -89,7 +89,7 @@ class ThreadPool:
         self._started = 0
 
     def submit(self, task: Task) -> None:
-        """Run `task` on a worker; what it raises is reported."""
+        """Run `task` on a worker; its exception is reported."""
         with self._lock:
             self._spare -= 1
             grow = self._spare < 0 and not self._growing and not self._stopping

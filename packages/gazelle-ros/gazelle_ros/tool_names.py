@@ -1,4 +1,4 @@
-"""The names of ROS's command-line tools, and what stands for them here."""
+"""Names of ROS's command-line tools, and the corresponding commands of Gazelle."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Warnings for what is not simulated of links: one for all links of a world."""
+"""Warnings about unsupported elements of links, one for all links of a world."""
 
 from __future__ import annotations
 

@@ -58,7 +58,7 @@ class WorldGeoms:
         self._later.append((element, "name", name))
 
     def finish(self) -> None:
-        """Add what is still waiting, and give names."""
+        """Add the queued geoms, and set names."""
         self._attach()
         for element, what, name in self._later:
             setattr(element, what, name)

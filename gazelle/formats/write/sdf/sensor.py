@@ -1,4 +1,4 @@
-"""``<sensor>``: the fields of its family, put into what is kept of the element."""
+"""Writer of ``<sensor>``: the fields of its type, merged into the kept element."""
 
 from __future__ import annotations
 

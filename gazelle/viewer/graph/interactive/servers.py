@@ -109,6 +109,6 @@ class InteractiveServers:
                     self._servers[space] = _Server(self._context, space)
 
     def draw(self) -> None:
-        """Show what is new."""
+        """Show new values."""
         for server in self._servers.values():
             server.draw()

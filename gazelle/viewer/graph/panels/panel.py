@@ -38,7 +38,7 @@ class GraphPanel(ABC):
 
     @abstractmethod
     def refresh(self) -> None:
-        """Show what is new; called within the panel's place on the page."""
+        """Show new values; called within the panel's place on the page."""
 
     def pause(self) -> None:  # noqa: B027  most panels need none
         """Leave the graph alone while no page is open."""

@@ -92,7 +92,7 @@ class PanelSet:
             self._requests.append(lambda: self._remove(title))
 
     def refresh(self) -> None:
-        """Open and close what was requested, and refresh what is due."""
+        """Open and close requested panels, and refresh those that are due."""
         with self._lock:
             requests, self._requests = self._requests, []
         for request in requests:

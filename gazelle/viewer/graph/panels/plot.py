@@ -151,7 +151,7 @@ class PlotPanel(GraphPanel):
             field.close()
 
     def _add_waiting(self) -> None:
-        """Plot what was asked for before its topic was there."""
+        """Plot fields that were requested before their topic existed."""
         for text in tuple(self._waiting):
             try:
                 self.add(text)

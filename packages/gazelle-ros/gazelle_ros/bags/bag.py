@@ -119,7 +119,7 @@ class Bag(Closeable):
         self._file = BagFile(self._stream, self.filename)
 
     def close(self) -> None:
-        """Write what is not written yet, and the index; close the file."""
+        """Write pending data and the index, and close the file."""
         writer, self._writer = self._writer, None
         stream, self._stream = self._stream, None
         file, self._file = self._file, None
@@ -378,7 +378,7 @@ class Bag(Closeable):
         return iter([chunk.position for chunk in self.index.chunks])
 
     def flush(self) -> None:
-        """Flush what was written to the system."""
+        """Flush written data to the operating system."""
         if self._writer is not None:
             with naming(self.filename):
                 self._writer.flush()

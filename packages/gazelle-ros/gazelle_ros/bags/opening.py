@@ -42,7 +42,7 @@ class Streamed:
                 shutil.copyfileobj(stream, file)
 
     def finish(self) -> None:
-        """Write to the stream what was written to the file, and delete the file."""
+        """Copy the file to the stream, and delete the file."""
         with self._folder:
             if self._writes:
                 with self.path.open("rb") as file:

@@ -95,7 +95,7 @@ class _Output:
 
 
 class BagRecorder:
-    """Subscribes to topics and writes what comes.
+    """Subscribes to topics and writes their messages.
 
     Args:
         node: Subscribes.

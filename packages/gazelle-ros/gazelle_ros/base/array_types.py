@@ -1,4 +1,4 @@
-"""Names for arrays by what they hold, for annotations; shapes are in the docstrings."""
+"""Array types for annotations, named by their content; shapes are in the docstrings."""
 
 from __future__ import annotations
 

@@ -12,7 +12,7 @@ class Closeable(ABC):
 
     @abstractmethod
     def close(self) -> None:
-        """Release what it holds; again is harmless."""
+        """Release resources; further calls do nothing."""
 
     def __enter__(self) -> Self:
         return self

@@ -315,7 +315,7 @@ class _Listener:
         os._exit(128 + number)
 
     def _raise_again(self) -> None:
-        """Raise again what was lost, until the block has ended."""
+        """Raise a lost interrupt again, until the block has ended."""
         while not self._closing.wait(_LOST_S) and self.receivers:
             self._again = True
             signal.pthread_kill(self._main, signal.SIGINT)

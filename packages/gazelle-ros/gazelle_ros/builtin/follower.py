@@ -1,4 +1,4 @@
-"""The nodelet ``turtlebot_follower``: after what stands before the camera (http://wiki.ros.org/turtlebot_follower)."""
+"""The nodelet ``turtlebot_follower``: follow the object in front of the camera (http://wiki.ros.org/turtlebot_follower)."""
 
 from __future__ import annotations
 

@@ -57,7 +57,7 @@ class Repeater:
 
 
 def relay(arguments: Sequence[str]) -> int:
-    """Publish on another topic what comes on one; returns the exit code."""
+    """Publish the messages of a topic on another; returns the exit code."""
     found = parse_arguments(arguments, "relay", anonymous=True)
     source, target = _topics(found.plain, "relay IN_TOPIC [OUT_TOPIC]", "_relay")
     with found.start() as node:

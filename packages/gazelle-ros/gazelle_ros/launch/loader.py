@@ -373,7 +373,7 @@ class _Loader:
             )
 
     def _passed(self, element: Element, scope: LaunchScope, inner: LaunchScope) -> set[str]:
-        """Evaluate what stands in an include; returns the names of arguments given."""
+        """Evaluate the children of an include; returns the names of given arguments."""
         passed: set[str] = set()
         for child in element.children:
             tag = child.tag.lower()

@@ -159,7 +159,7 @@ class NodeProcess:
         return True
 
     def finish(self) -> None:
-        """Kill it and what it left behind, if need be, and take its exit code."""
+        """Kill the process and its children if they still run, and collect its exit code."""
         if self._process is None:
             return
         if self.poll() is None:

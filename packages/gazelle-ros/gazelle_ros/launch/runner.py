@@ -314,7 +314,7 @@ class Launch(Closeable):
         return self._failed
 
     def poll(self) -> None:
-        """Check all processes once: report ends, respawn what is due."""
+        """Check all processes once: report ended ones, and respawn those that are due."""
         with self._lock:
             self._poll()
 

@@ -9,7 +9,7 @@ from gazelle_ros.names import ANY_TYPE
 
 @dataclass(slots=True)
 class NodeEntry:
-    """A node the master knows, and what it registered."""
+    """A node, and its registrations at the master."""
 
     name: str
     uri: str

@@ -34,7 +34,7 @@ class EncoderWriter:
             self._field(field, f"{owner}.{field.attribute}")
 
     def flush(self) -> None:
-        """Write what is pending."""
+        """Write pending fields."""
         self._close_struct()
         if len(self._pieces) == 1:
             self._code.line(f"w({self._pieces[0]})")

@@ -1,4 +1,4 @@
-"""The topics of one client: what it subscribes to and what it publishes."""
+"""Subscriptions and publications of one client."""
 
 from __future__ import annotations
 

@@ -159,7 +159,7 @@ class BridgeServer(Closeable):
     async def _send_all(
         self, connection: ServerConnection, outbox: ClientQueue, news: asyncio.Event
     ) -> None:
-        """Send what is in the outbox, as fast as the client takes it."""
+        """Send the messages of the outbox as fast as the client receives them."""
         from websockets.exceptions import ConnectionClosed
 
         delay = self._settings.delay_between_messages

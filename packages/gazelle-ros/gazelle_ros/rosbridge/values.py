@@ -29,7 +29,7 @@ def json_values(message: Any) -> dict[str, Any]:
 
 
 def fill_message(message: Any, values: Any, now: Time) -> Any:
-    """Set the fields of a message from JSON values; what is not named keeps its default.
+    """Set the fields of a message from JSON values; other fields keep their defaults.
 
     Args:
         message: Of any type; it is returned.

@@ -55,7 +55,7 @@ class FrameReader:
         self._level = 1
 
     def read(self, sock: socket.socket) -> list[bytes]:
-        """Read what is there now and return the frames that are whole, without their lengths.
+        """Read available data and return complete frames, without their lengths.
 
         Raises:
             ClosedError: The stream ended.

@@ -71,7 +71,7 @@ class StampedTransform:
 
 
 class FrameTree:
-    """All frames, and for each what is known of it.
+    """All frames, each with its transforms over time.
 
     Args:
         cache_ns: Time to keep placements [ns].

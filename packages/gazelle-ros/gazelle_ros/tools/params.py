@@ -77,7 +77,7 @@ def pretty(value: Any, indent: str = "") -> str:
 
 
 def set_parameter(graph: GraphInspector, name: str, value: Any) -> list[tuple[str, Any]]:
-    """Set a parameter; a mapping is merged into what is there, one parameter after another.
+    """Set a parameter; a mapping is merged into existing parameters, one after another.
 
     Returns:
         What was set.
@@ -99,7 +99,7 @@ def set_parameter(graph: GraphInspector, name: str, value: Any) -> list[tuple[st
 
 
 def set_from_text(graph: GraphInspector, name: str, text: str) -> list[tuple[str, Any]]:
-    """Set a parameter to a YAML value; returns what was set.
+    """Set a parameter to a YAML value; returns the value.
 
     Raises:
         ToolError: It is not YAML, or the master cannot take the value.
@@ -113,7 +113,7 @@ def set_from_text(graph: GraphInspector, name: str, text: str) -> list[tuple[str
 def load_parameters(
     graph: GraphInspector, file: str, space: str | None = None
 ) -> list[tuple[str, Any]]:
-    """Set the parameters of a YAML file, ``-`` for standard input; returns what was set.
+    """Set the parameters of a YAML file, ``-`` for standard input; returns the set values.
 
     A document's key ``_ns`` names the namespace it goes to.
 

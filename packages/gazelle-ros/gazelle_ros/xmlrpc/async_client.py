@@ -71,7 +71,7 @@ class AsyncClient:
         self.loop.call_soon(peer.go_on)
 
     def forget(self, uri: str) -> None:
-        """Close what is open to that server."""
+        """Close open connections to that server."""
         peer = self._peers.pop(uri, None)
         if peer is not None:
             peer.close()

@@ -58,7 +58,7 @@ def _spawn(controllers: Sequence[str]) -> None:
 
 
 def _switch(controllers: Sequence[str], others: set[str]) -> None:
-    """Load what is missing, start what does not run, and stop what belongs to other groups."""
+    """Load missing controllers, start those of the group, and stop those of other groups."""
     states = _states()
     for name in controllers:
         if name not in states and not manager.load_controller(name):

@@ -111,14 +111,14 @@ class Spawner:
         rospy.loginfo(f"Controller Spawner: Loaded controllers: {', '.join(self.loaded)}")
 
     def start(self) -> None:
-        """Start what was loaded, all or none."""
+        """Start the loaded controllers, all or none."""
         if self._switch(start_controllers=self.loaded):
             rospy.loginfo(f"Started controllers: {', '.join(self.loaded)}")
         else:
             rospy.logerr(f"Failed to start controllers: {', '.join(self.loaded)}")
 
     def take_down(self) -> None:
-        """Stop and unload what was loaded, the last first."""
+        """Stop and unload the loaded controllers in reverse order."""
         rospy.loginfo("Shutting down spawner. Stopping and unloading controllers...")
         try:
             rospy.loginfo("Stopping all controllers...")

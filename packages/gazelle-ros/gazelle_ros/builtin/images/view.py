@@ -90,7 +90,7 @@ def shown_image(settings: ViewSettings, image: sensor_msgs.msg.Image) -> sensor_
 
 
 def _stretched(settings: ViewSettings, pixels: Pixels) -> Pixels:
-    """Return grey of 8 bits; what is not finite is black."""
+    """Return 8-bit grey values; values that are not finite are black."""
     low, high = settings.min_image_value, settings.max_image_value
     if settings.do_dynamic_scaling:
         finite = pixels[np.isfinite(pixels)].astype(np.float64)

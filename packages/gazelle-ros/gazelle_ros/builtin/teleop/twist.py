@@ -68,7 +68,7 @@ class KeyDrive:
         return True
 
     def fill(self, twist: geometry_msgs.msg.Twist) -> None:
-        """Write what is asked for into a twist."""
+        """Write the requested velocities into a twist."""
         x, y, z, yaw = self.direction
         twist.linear.x, twist.linear.y, twist.linear.z = (each * self.speed for each in (x, y, z))
         twist.angular.z = yaw * self.turn
