@@ -259,18 +259,25 @@ def test_nodelets_make_clouds_and_metres_of_depth_images(make_node, listen, send
     assert got["metres"][0].encoding == "32FC1"
 
 
-def test_the_registering_nodelet_waits_for_its_transform(make_node, listen, sender):
-    registry.nodelet("depth_image_proc/register")(make_node("manager"))
+@pytest.mark.parametrize("by_colours", [False, True])
+def test_the_registering_nodelet_waits_for_its_transform(make_node, listen, sender, by_colours):
+    node = make_node("manager")
+    node.set_param("~use_rgb_timestamp", by_colours)
+    registry.nodelet("depth_image_proc/register")(node)
     link = geometry_msgs.msg.TransformStamped(header=header("rgb"), child_frame_id="depth")
     link.transform.translation.x, link.transform.rotation.w = 0.4, 1.0
     got = {"image": listen("/depth_registered/image_rect", IMAGE),
            "info": listen("/depth_registered/camera_info", CAMERA)}  # fmt: skip
-    wall = depth_image(np.full(SIZE, 2.0))
+    wall, other = depth_image(np.full(SIZE, 2.0)), camera(frame="rgb")
+    own = wall.header.stamp
+    other.header.stamp = Time(nsecs=own.to_nsec() + 10_000_000)
     messages = {
         "/depth/image_rect": wall, "/depth/camera_info": camera(),
-        "/rgb/camera_info": camera(frame="rgb"),
+        "/rgb/camera_info": other,
         "/tf_static": tf2_msgs.msg.TFMessage(transforms=[link]),
     }  # fmt: skip
     sender(messages, got)
     assert np.isnan(depths_of(got["image"][0])).sum() == 12
     assert got["info"][0].header.frame_id == "rgb"
+    stamps = {each.header.stamp for found in got.values() for each in found}
+    assert stamps == {other.header.stamp if by_colours else own}

@@ -117,6 +117,13 @@ def test_without_distortion_an_image_passes_as_it_is(graph, in_camera, make_node
     assert got["/camera/image_rect"][0].data == sent.data
 
 
+def test_frames_of_rectified_images_may_have_a_suffix(graph, in_camera):
+    in_camera(lambda node: Rectify(node, "image_raw"), rectified_frame_suffix="_rect")
+    got = graph.results("/camera/image_rect")
+    graph.send_until(got)
+    assert got["/camera/image_rect"][0].header.frame_id == "optical_rect"
+
+
 def test_a_camera_without_calibration_is_named(graph, in_camera, caplog):
     in_camera(lambda node: Rectify(node, "image_raw"))
     got = graph.results("/camera/image_rect")

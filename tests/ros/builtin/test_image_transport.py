@@ -75,6 +75,23 @@ def test_quality_makes_images_larger():
     assert sizes[0] < sizes[1]
 
 
+def test_a_jpeg_is_written_progressively_and_with_restart_marks():
+    image = random_image("rgb8")
+    start, marks = (
+        b"\xff\xc2",
+        b"\xff\xdd",
+    )  # of a progressive frame, and of its interval of restarts
+    plain = bytes(compress(image, CompressionSettings()).data)
+    assert start not in plain
+    assert marks not in plain
+    more = CompressionSettings(jpeg_progressive=True, jpeg_restart_interval=2, jpeg_optimize=True)
+    packed = compress(image, more)
+    assert start in bytes(packed.data)
+    assert marks in bytes(packed.data)
+    # The same coefficients, written in another order.
+    assert decompress(packed).data == decompress(compress(image, CompressionSettings())).data
+
+
 @pytest.mark.parametrize(
     ("encoding", "bytes_a_pixel", "settings"),
     [("32FC1", 4, PNG), ("mono16", 2, CompressionSettings()), ("rgb16", 6, PNG)],
@@ -124,6 +141,16 @@ def test_all_transports_are_published_by_default(republish):
     assert got["raw"][0].data == image.data
     assert decompress(got["compressed"][0]).data == image.data
     assert got["compressed"][0].header.frame_id == "camera"
+
+
+def test_nothing_is_published_where_it_is_disabled(republish):
+    made, sender, got = republish("raw", enable=False)
+    sender.publish(random_image("rgb8"))
+    until(lambda: got["raw"])
+    made.compressed.publish(random_image("rgb8"))
+    sender.publish(random_image("rgb8"))
+    until(lambda: len(got["raw"]) == 2)
+    assert not got["compressed"]
 
 
 def test_compressed_images_become_raw(republish):

@@ -107,6 +107,15 @@ def test_points_beyond_the_range_free_what_is_before_it():
     assert value_at(tree, (0.65, 0.05, 0.05)) is None
 
 
+def test_points_nearer_than_the_range_are_left_out():
+    tree = VoxelMap(0.1, HitModel(min_range=0.5))
+    near, far = [[0.45, 0.05, 0.05]], [[0.05, 1.05, 0.05]]
+    tree.insert(np.array([0.05, 0.05, 0.05]), np.array(near + far), np.array(near))
+    assert value_at(tree, (0.45, 0.05, 0.05)) is None
+    assert value_at(tree, (0.25, 0.05, 0.05)) is None
+    assert tree.occupied.sum() == 1
+
+
 def test_a_cell_alone_is_a_speckle():
     tree = VoxelMap(0.1, HitModel())
     points = np.array([[1.05, 0.05, 0.05], [1.15, 0.15, 0.05], [3.05, 0.05, 0.05]])

@@ -28,11 +28,19 @@ class CompressionSettings:
         format: ``jpeg`` or ``png``.
         jpeg_quality: In percent.
         png_level: Of compression.
+        enable: Whether images are published.
+        jpeg_progressive: Whether a picture sharpens while it is loaded.
+        jpeg_optimize: Whether a JPEG is made smaller, with more work.
+        jpeg_restart_interval: Blocks between two marks from which a damaged JPEG can be read; 0 for none.
     """
 
     format: str = tunable("jpeg", description="Compression format: jpeg or png")
     jpeg_quality: int = tunable(80, 1, 100, "JPEG quality percentile")
     png_level: int = tunable(9, 1, 9, "PNG compression level")
+    enable: bool = tunable(True, description="Enable image publishing")
+    jpeg_progressive: bool = tunable(False, description="Enable progressive JPEG")
+    jpeg_optimize: bool = tunable(False, description="Enable optimization of JPEG")
+    jpeg_restart_interval: int = tunable(0, 0, 65535, "JPEG restart interval")
 
     def __post_init__(self) -> None:
         if self.format not in _FORMATS:
@@ -79,8 +87,13 @@ def fill_compressed(
         RosError: Pillow is not installed.
     """
     written = io.BytesIO()
-    options = {
-        "jpeg": {"quality": settings.jpeg_quality},
+    options: dict[str, dict[str, Any]] = {
+        "jpeg": {
+            "quality": settings.jpeg_quality,
+            "progressive": settings.jpeg_progressive,
+            "optimize": settings.jpeg_optimize,
+            "restart_marker_blocks": settings.jpeg_restart_interval,
+        },
         "png": {"compress_level": settings.png_level},
     }
     pillow().fromarray(np.ascontiguousarray(pixels)).save(

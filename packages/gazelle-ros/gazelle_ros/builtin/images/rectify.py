@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from dataclasses import dataclass
 from typing import Any
 
@@ -28,10 +29,12 @@ class RectifySettings:
     Attributes:
         interpolation: OpenCV's number: 0 nearest, 1 linear, 2 cubic, 4 Lanczos.
         queue_size: Images that wait for their ``camera_info``.
+        rectified_frame_suffix: Appended to the frame of the images.
     """
 
     interpolation: int = tunable(1, 0, 4, "Interpolation algorithm between source image pixels")
     queue_size: int = QUEUE
+    rectified_frame_suffix: str = ""
 
 
 class Rectify(ImageConversion):
@@ -62,7 +65,13 @@ class Rectify(ImageConversion):
         self, image: sensor_msgs.msg.Image, camera: sensor_msgs.msg.CameraInfo
     ) -> list[sensor_msgs.msg.Image]:
         way = Interpolation(self._tuned.settings.interpolation)
-        return [self._rectifier.rectify(image, camera, way)]
+        made = self._rectifier.rectify(image, camera, way)
+        suffix = self._tuned.settings.rectified_frame_suffix
+        if suffix:
+            made = copy.copy(made)
+            made.header = copy.copy(made.header)
+            made.header.frame_id += suffix
+        return [made]
 
 
 class Rectifier:

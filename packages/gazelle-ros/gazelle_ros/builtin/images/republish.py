@@ -100,7 +100,7 @@ class CompressedPublisher:
         Raises:
             RosError: It cannot be compressed.
         """
-        if self._publisher.has_subscribers:
+        if self._publisher.has_subscribers and self._tuned.settings.enable:
             self._publisher.publish(compress(image, self._tuned.settings))
 
 

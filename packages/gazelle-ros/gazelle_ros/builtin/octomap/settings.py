@@ -14,7 +14,7 @@ from gazelle_ros.builtin.octomap.voxels import HitModel
 from gazelle_ros.builtin.parameters import private_values
 from gazelle_ros.node import Node
 
-_SENSOR = {"hit": "hit", "miss": "miss", "least": "min", "most": "max", "max_range": "max_range"}
+_SENSOR = {"hit": "hit", "miss": "miss", "least": "min", "most": "max", "max_range": "max_range", "min_range": "min_range"}  # fmt: skip
 """Fields of `HitModel`, and parameters below ``sensor_model``."""
 _UNUSED = (
     "colored_map", "compress_map", "incremental_2D_projection", "latch", "publish_free_space",

@@ -28,6 +28,7 @@ class HitModel:
         least: Least probability of a cell.
         most: Greatest one.
         max_range: Points farther off only free what is before that [m]; none if negative.
+        min_range: Nearer points are left out [m]; none if negative.
     """
 
     hit: float = 0.7
@@ -35,6 +36,7 @@ class HitModel:
     least: float = 0.12
     most: float = 0.97
     max_range: float = -1.0
+    min_range: float = -1.0
 
     def __post_init__(self) -> None:
         if not 0.0 < self.least < self.miss < 0.5 < self.hit < self.most < 1.0:
@@ -80,11 +82,12 @@ class VoxelMap:
             points: Shape (n, 3) [m].
             ground: Points that only free what is before them, shape (m, 3) [m].
         """
+        floor = np.zeros((0, 3)) if ground is None else ground
+        points, floor = (self._away(origin, each) for each in (points, floor))
         start = origin / self.resolution
         near, cut = self._within_range(start, points)
         hits, ends = self._ends(near)
         open_cells, open_ends = self._ends(cut)
-        floor = np.zeros((0, 3)) if ground is None else ground
         floor_ends = np.concatenate(self._within_range(start, floor))
         passed = crossed(start, np.concatenate((ends, open_ends, floor_ends))) + ORIGIN
         inside = ((passed >= 0) & (passed < 1 << DEPTH)).all(axis=1)
@@ -94,6 +97,13 @@ class VoxelMap:
         fresh[1:] &= free[1:] != free[:-1]
         self._update(free[fresh], self._miss)
         self._update(hits, self._hit)
+
+    def _away(self, origin: Floats, points: Floats) -> Floats:
+        """Return the points that are not too near a place."""
+        if self._sensor.min_range <= 0.0:
+            return points
+        found: Floats = points[np.linalg.norm(points - origin, axis=1) >= self._sensor.min_range]
+        return found
 
     def load(self, codes: Ints64, values: NDArray[np.float32]) -> None:
         """Replace all cells.

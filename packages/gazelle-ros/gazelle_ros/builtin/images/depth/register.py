@@ -30,10 +30,12 @@ class RegisterSettings:
     Attributes:
         queue_size: Images that wait for both ``camera_info``.
         fill_upsampling_holes: Whether a pixel fills all that its square covers.
+        use_rgb_timestamp: Whether images have the time of ``rgb/camera_info``, not their own.
     """
 
     queue_size: int = QUEUE
     fill_upsampling_holes: bool = False
+    use_rgb_timestamp: bool = False
 
 
 class RegisterDepth(ImageConversion):
@@ -79,9 +81,13 @@ class RegisterDepth(ImageConversion):
             transform = self._tree.lookup(target, source, camera.header.stamp.to_nsec())
         except TransformException as error:
             raise ValueError(str(error)) from error
-        return registered(
+        made = registered(
             depth, camera, other, transform, fill=self._settings.fill_upsampling_holes
         )
+        if self._settings.use_rgb_timestamp:
+            for each in made:
+                each.header.stamp = other.header.stamp
+        return made
 
 
 def registered(

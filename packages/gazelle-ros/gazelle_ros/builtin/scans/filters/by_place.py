@@ -71,6 +71,7 @@ class LaserScanPolygonFilter:
 
     polygon: list[Any] = field(default_factory=list)
     polygon_frame: str = ""
+    transform_timeout: float = 5.0  # not needed: a scan waits until its transforms are known
     polygon_padding: float = tunable(0.0, 0.0, 100.0, "Polygon padding in meters")
     invert: bool = tunable(False, description="A Boolean to invert the filter")
 
