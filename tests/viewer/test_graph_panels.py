@@ -158,6 +158,37 @@ def test_a_robot_is_steered_and_stops_with_the_panel(graph):
     until(lambda: got[-1].linear.x == 0.0)
 
 
+STANDARD = """(() => {
+window.pad = {id: "A *pad*", mapping: "standard", axes: [0.525, -1.0, 0.02, 0.0],
+              buttons: Array.from({length: 17}, () => ({value: 0}))};
+navigator.getGamepads = () => [null, window.pad];
+})()"""
+
+
+def test_a_gamepad_of_the_browser_is_published_as_by_joy_node(graph):
+    got = []
+    graph.node.subscribe("/joy", type(message("sensor_msgs/Joy")), got.append)
+    graph.page.evaluate(STANDARD)
+    with opened_panel(graph, "Joystick"):
+        graph.wait_text("A pad")
+        until(lambda: got)
+        # Left and up are positive, there is a dead zone, and triggers are 1 until they are pulled.
+        axes = [-0.5, 1.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0]
+        assert got[-1].axes == pytest.approx(axes, abs=1e-3)
+        assert list(got[-1].buttons) == [0] * 11
+        graph.page.evaluate("window.pad.buttons[3].value = window.pad.buttons[12].value = 1")
+        graph.page.evaluate("window.pad.buttons[6].value = 1")
+        until(lambda: got[-1].axes[7] == 1.0)
+        assert list(got[-1].buttons) == [0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0]
+        assert got[-1].axes[2] == -1.0
+        graph.page.evaluate("window.pad.mapping = ''")
+        until(lambda: len(got[-1].buttons) == 17)
+        assert got[-1].axes == pytest.approx([-0.5, 1.0, 0.0, 0.0], abs=1e-3)
+        graph.page.evaluate("navigator.getGamepads = () => []")
+        until(lambda: not any((*got[-1].axes, *got[-1].buttons)))  # a silent page lets go
+        graph.wait_text("No gamepad")
+
+
 ARM = """<robot name="arm"><link name="base"/><link name="tip"/><link name="end"/>
 <joint name="elbow" type="revolute"><parent link="base"/><child link="tip"/><axis xyz="0 0 1"/>
 <limit lower="0.5" upper="1.5" effort="1" velocity="1"/></joint>

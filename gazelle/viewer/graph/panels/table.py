@@ -8,6 +8,7 @@ from gazelle.viewer.graph.panels.controllers import ControllersPanel
 from gazelle.viewer.graph.panels.image_view import ImageViewPanel
 from gazelle.viewer.graph.panels.joint_sliders import JointSlidersPanel
 from gazelle.viewer.graph.panels.joint_trajectory import JointTrajectoryPanel
+from gazelle.viewer.graph.panels.joystick import JoystickPanel
 from gazelle.viewer.graph.panels.logger_levels import LoggerLevelPanel
 from gazelle.viewer.graph.panels.node_graph import NodeGraphPanel
 from gazelle.viewer.graph.panels.panel import GraphPanel
@@ -28,6 +29,7 @@ PANELS: dict[str, type[GraphPanel]] = {
         ImageViewPanel,
         JointSlidersPanel,
         JointTrajectoryPanel,
+        JoystickPanel,
         LoggerLevelPanel,
         NodeGraphPanel,
         PlotPanel,
