@@ -166,7 +166,7 @@ def test_it_drives_back_after_a_stop_if_it_is_told_to(here):
 
 
 def test_its_speed_back_is_above_zero(here):
-    with pytest.raises(Error, match="reversing_velocity is above 0"):
+    with pytest.raises(Error, match="reversing_velocity must be above 0"):
         here(RangerSafety, reversing_velocity=0.0)
 
 

@@ -246,7 +246,7 @@ def test_wrong_parameters_of_teleop_twist_joy(teleop, caplog):
     teleop(axis_linear={"x": 0, "why": 1}, enable_buton=3)
     assert "axis_linear/why is an unknown parameter" in caplog.text
     assert "did you mean 'enable_button'" in caplog.text
-    with pytest.raises(Error, match="'axis_angular' is a int"):
+    with pytest.raises(Error, match="'axis_angular' must be of type int"):
         teleop(axis_angular="left")
 
 
@@ -435,5 +435,5 @@ def test_the_relay_passes_with_priority_and_stops_without(make_node, run, listen
 def test_a_speed_of_the_relay_is_above_zero(make_node):
     node = make_node("joystick_relay")
     node.set_param("~turbo/angular_max", 0.0)
-    with pytest.raises(Error, match="/joystick_relay/turbo/angular_max is above 0"):
+    with pytest.raises(Error, match="/joystick_relay/turbo/angular_max must be above 0"):
         JoystickRelay(node)

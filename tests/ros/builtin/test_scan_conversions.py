@@ -177,10 +177,10 @@ def test_scans_become_clouds_in_the_target_frame(make_node, run, listen):
 def test_a_wrong_parameter_is_an_error(make_node):
     node = make_node("converter")
     node.set_param("~angle_increment", 0.0)
-    with pytest.raises(Error, match="angle_increment is above 0"):
+    with pytest.raises(Error, match="angle_increment must be above 0"):
         pointcloud_to_laserscan(node)
     node.set_param("~angle_increment", "wide")
-    with pytest.raises(Error, match="'angle_increment' is a float"):
+    with pytest.raises(Error, match="'angle_increment' must be of type float"):
         pointcloud_to_laserscan(node)
 
 

@@ -120,5 +120,5 @@ def test_view_frames_draws_the_tree(master, tree, tmp_path):
     ],
 )
 def test_a_wrong_command_line_is_one_error(words):
-    with pytest.raises(RosError, match=r"takes|rate is above 0"):
+    with pytest.raises(RosError, match=r"takes|rate must be above 0"):
         main_of("tf", words[0])(words[1:])

@@ -66,10 +66,10 @@ def test_a_marker_has_a_control_for_each_axis():
 @pytest.mark.parametrize(
     ("values", "text"),
     [
-        ({**PLANE, "linear_scale": {"w": 1.0}}, "'linear_scale' is a mapping of x, y or z"),
-        ({"linear_scale": {"x": 1.0}}, "'max_positive_linear_velocity' is a mapping"),
+        ({**PLANE, "linear_scale": {"w": 1.0}}, "'linear_scale' must be a mapping of x, y or z"),
+        ({"linear_scale": {"x": 1.0}}, "'max_positive_linear_velocity' must be a mapping"),
         ({**PLANE, "max_positive_linear_velocity": {"x": 1.0}}, "are of the same axes"),
-        ({"angular_scale": "fast"}, "'angular_scale' is a float"),
+        ({"angular_scale": "fast"}, "'angular_scale' must be of type float"),
     ],
 )
 def test_wrong_parameters_are_refused(values, text):
