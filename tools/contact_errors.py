@@ -1,4 +1,4 @@
-"""Deviation of contacts from the truth, by physics step; the table of docs/explanation/physics.md.
+"""Deviation of contacts from the truth, by physics step; the table of docs/explanation/accuracy.md.
 
 Every task runs at every step, with the contacts that the engine chooses for its world. What slides,
 rolls and drives is compared with its closed form; what is held, parked and stacked should stay.

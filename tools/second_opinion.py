@@ -1,4 +1,4 @@
-"""Print the table of docs/explanation/physics.md that compares the engine with Bullet, scene by scene.
+"""Print the table of docs/explanation/accuracy.md that compares the engine with Bullet, scene by scene.
 
 Needs Bullet: pip install 'gazelle[oracle]'.
 """

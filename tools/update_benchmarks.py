@@ -2,7 +2,7 @@
 
 Without arguments all tables, else the ones named. A table of docs/explanation/benchmarks.md
 stands behind its benchmark and the arguments (``<!-- learner --all-in -->``); ``contacts`` is the
-table of docs/explanation/physics.md, errors and costs of contacts. All of physics, in two minutes:
+table of docs/explanation/accuracy.md, errors and costs of contacts. All of physics, in two minutes:
 
     python tools/update_benchmarks.py physics contacts
 """
@@ -24,7 +24,7 @@ sys.path.insert(0, str(ROOT / "benchmarks"))
 
 from _checkout import commit  # noqa: E402  # lies beside the benchmarks
 
-PAGES = ("explanation/benchmarks.md", "explanation/physics.md")
+PAGES = ("explanation/benchmarks.md", "explanation/accuracy.md")
 BLOCK = re.compile(
     r"(?ms)^<!-- (?P<name>[a-z]+)(?P<arguments> [^>]*?)? -->\n"
     r"(?P<text>```text\n.*?^```\n|(?:\|[^\n]*\n)+\n[^\n]*\n)"

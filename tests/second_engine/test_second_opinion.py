@@ -1,6 +1,6 @@
 """Ten scenes in MuJoCo and in Bullet: the same motion, but for differences that are explained.
 
-The differences are listed in docs/explanation/physics.md; ``tools/second_opinion.py`` prints the list.
+The differences are listed in docs/explanation/accuracy.md; ``tools/second_opinion.py`` prints the list.
 """
 
 from pathlib import Path
@@ -15,7 +15,7 @@ from second_engine.ten_scenes import DAMPING, LOOP, SCENES
 from gazelle.description import Ellipsoid, Joint, JointAxis, Link, Model
 
 BY_NAME = {scene.name: scene for scene in SCENES}
-PAGE = Path(__file__).parents[2] / "docs" / "explanation" / "physics.md"
+PAGE = Path(__file__).parents[2] / "docs" / "explanation" / "accuracy.md"
 
 
 @pytest.mark.long

@@ -1,6 +1,6 @@
 """SDF surfaces as MuJoCo contact parameters.
 
-The derivations and their limits are written down in ``docs/explanation/physics.md``.
+The derivations and their limits are written down in ``docs/explanation/contact-laws.md``.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ _IMPEDANCE = (0.9, 0.9999, 0.001, 0.5, 2.0)
 
 # How many times stiffer friction is than the normal direction, or what is held creeps: in a
 # pyramid, and in a cone, where the share at first touch may be this, too. In a pyramid so much
-# makes wheels shake; in a cone it costs nothing (docs/explanation/physics.md, "Creep of held contacts").
+# makes wheels shake; in a cone it costs nothing (docs/explanation/contact-laws.md, "Creep of held contacts").
 _RATIO_IN_A_PYRAMID, _RATIO_IN_A_CONE = 100.0, 10_000.0
 _SHARE_IN_A_CONE = 0.99
 
