@@ -1,4 +1,4 @@
-"""Arrays from ``.npz`` files of anybody: never Python objects, and no more than there is room for."""
+"""Arrays from untrusted ``.npz`` files: no Python objects, and limited sizes."""
 
 from __future__ import annotations
 

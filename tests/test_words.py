@@ -11,16 +11,21 @@ from test_docstrings import CHECKOUT, PACKAGE, ROS, docstrings
 
 TERMS = {
     "anatomy": "structure",
+    "anew": "again",
+    "anybody": "any user, or subscribers",
     "askew": "misaligned",
     "astray": "out of range",
     "calming": "recovery",
     "heard": "received",
     "hears": "receives",
     "heeded": "supported",
+    "nobody": "no user, or no subscriber",
+    "somebody": "a user, or a subscriber",
     "strangers": "unknown names",
     "told": "reported",
     "tells": "reports",
     "whereabouts": "position",
+    "whoever": "the user, or the publisher",
 }
 """Standard terms by the words that they replace."""
 ANY = re.compile("|".join(TERMS), re.IGNORECASE)

@@ -1,7 +1,7 @@
 """Robots, worlds and models that come with Gazelle: data, and the paths to it.
 
 Laid out as the files of a Gazebo and ROS 1 workspace are: worlds and models in the packages that publish
-them, those of Gazebo itself and of nobody else in ``worlds/`` and ``models/``::
+them, those of Gazebo itself alone in ``worlds/`` and ``models/``::
 
     gazelle.load(gazelle.assets.world("turtlebot3_stage_1"))
 """

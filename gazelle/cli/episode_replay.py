@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from gazelle.training import Evaluation
     from gazelle.training.records import EpisodeRecord
 
-_WAIT = 0.1  # until somebody may have opened the page [s]
+_WAIT = 0.1  # time for a user to open the page [s]
 _GONE = 10.0  # without a page after the last episode, until it is taken for closed [s]
 _AT_END = 1.0  # for which the last moment of an episode stays on the page [s]
 
@@ -27,7 +27,7 @@ class _OtherEpisode(Exception):  # noqa: N818  nothing is wrong
 def show_episodes(result: Evaluation, port: int) -> None:
     """Play the episodes of an evaluation one by one on a page, failures first.
 
-    Each is played in real time, and begins when somebody looks. Users choose others on the page;
+    Each is played in real time, and begins when the page is open. Users choose others on the page;
     after the last one it waits for that until the page is closed.
 
     Raises:

@@ -44,7 +44,7 @@ if TYPE_CHECKING:
 
 _STATUS_EVERY = 0.5
 _SLICE = 0.05
-_MANY = 20  # models beyond which their names are not listed, and that nobody drives by hand
+_MANY = 20  # models beyond which their names are not listed, and that are not driven by hand
 
 
 def configure(parser: argparse.ArgumentParser) -> None:

@@ -164,7 +164,7 @@ class OdometrySystem(PluginSystem[D]):
     """Plugins with odometry measured in one batch."""
 
     def measure(self, plugins: Sequence[D]) -> Sequence[Odometry | None]:
-        """Return the odometry of each plugin where anybody has subscribed to that."""
+        """Return the odometry of each plugin if that output has subscribers."""
         return measure_wanted([each.odometry for each in plugins])
 
     def publish(self, plugin: D, measured: Odometry | None) -> None:

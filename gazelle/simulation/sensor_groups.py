@@ -49,7 +49,7 @@ U = TypeVar("U", bound=GroupedUnit)
 class SensorGroup:
     """Sensors with readings as rows of one table, measured at once.
 
-    Where nobody has subscribed, a kernel measures them within the engine's steps, if their models
+    Without subscribers, a kernel measures them within the engine's steps, if their models
     have one; else Python measures them when they are due, and calls the subscribers. It takes the
     place of its sensors among those that ``update_sensors`` measures.
 

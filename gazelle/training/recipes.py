@@ -57,7 +57,7 @@ _NAVIGATION = Recipe(
     settings=PPOSettings(n_steps=32, batch_size=4096, n_epochs=3, bfloat16=True),
 )
 
-# For tasks of anybody: a pole on a cart that is driven stays up for good after 300,000 steps, with
+# Defaults for users' tasks: a pole on a cart that is driven stays up for good after 300,000 steps, with
 # a third of the step size and fewer, longer rollouts in 15 % of the episodes.
 _DEFAULT = Recipe(learning_rate=1e-3, settings=PPOSettings(n_steps=32, n_epochs=6))
 
@@ -94,7 +94,7 @@ _GOAL_SETTINGS = OffPolicySettings(
     bfloat16=True,
 )
 
-# For goals of anybody: what is reached grows slowly at first, so all that makes it grow is used.
+# Defaults for users' goal tasks: what is reached grows slowly at first, so all that makes it grow is used.
 GOALS = Recipe(
     algo="ddpg",
     steps=100_000,

@@ -1,6 +1,6 @@
 """A training run as one file, to send and to keep.
 
-The file is a ZIP archive of the run's folder with its newest checkpoint. It may come from anybody: only
+The file is a ZIP archive of the run's folder with its newest checkpoint. It may be untrusted: only
 files that a run consists of are unpacked, none of them holds Python objects, and code that a run
 names is imported only by a user who trusts it (`gazelle.training.trust`).
 """

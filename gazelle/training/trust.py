@@ -1,4 +1,4 @@
-"""Consent to the code that a run names: its configuration may come from anybody."""
+"""Consent to import the code that a run names, as its configuration may be untrusted."""
 
 from __future__ import annotations
 

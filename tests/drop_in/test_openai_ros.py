@@ -181,7 +181,7 @@ def test_a_silent_topic_is_named(env, monkeypatch):
         robot, "sensors", [topics.RobotTopic("scan", "/cartpole_v0/joint_stats", "a/B")]
     )
     robot._received["scan"] = 0
-    with pytest.raises(TaskError, match=r"nobody publishes it.*joint_states"):
+    with pytest.raises(TaskError, match=r"it has no publisher.*joint_states"):
         robot._check_all_sensors_ready()
     monkeypatch.setattr(
         robot, "sensors", [topics.RobotTopic("joints", "/cartpole_v0/joint_states", "a/B")]

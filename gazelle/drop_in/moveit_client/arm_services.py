@@ -109,7 +109,7 @@ class ArmServices:
             PlanningError: It is not.
         """
         if not self._group.get_current_joint_values():
-            raise PlanningError("nobody says on 'joint_states' where the joints are")
+            raise PlanningError("no message on 'joint_states' has the positions of the joints")
 
 
 def _factor(node: Node, kind: str) -> float:

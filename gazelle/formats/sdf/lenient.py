@@ -3,7 +3,7 @@
 libsdformat 9, which Gazebo classic uses, reads a number as C's ``strtod`` does, which stops where
 it ends (``1.5kg`` is 1.5), and a pose or vector out of a stream, which leaves alone what is more
 and gives up where there is less. What Gazebo then takes for a vector that is too short, nothing
-at all, helps nobody: here the numbers that are there are kept.
+at all, is no help: here the given numbers are kept.
 """
 
 from __future__ import annotations

@@ -27,7 +27,7 @@ from gazelle.navigation.planners.teb_settings import TebFootprint, TebSettings
 _NO_GRIDS: Final = np.zeros((4, 1, 1), np.int32)
 _SLOW: Final = 0.02
 _PATIENCE: Final = 5
-"""A band is begun anew after this number of cycles below this speed [m/s]."""
+"""A band is created again after this number of cycles below this speed [m/s]."""
 _STILL: Final = 1e-3  # Speed below which a car's wheels cannot be turned to turn it [m/s]
 
 

@@ -84,7 +84,7 @@ def status_of(
     elif unplaced and arrivals.count:
         fault = f"{unplaced}, so it is not shown"
     elif not publishers:
-        fault = "nobody publishes it"
+        fault = "it has no publisher"
     elif not arrivals.count:
         return DisplayStatus("no message yet", fault=False)
     elif age >= SILENT_S and arrivals.count >= _REGULAR:

@@ -39,7 +39,7 @@ class SpeedPlots:
         if self._before is not None and wall - self._before[0] < _PERIOD:
             return None
         before, self._before = self._before, (wall, simulation.time, simulation.loop.spent)
-        if before is None or wall - before[0] > 10.0 * _PERIOD:  # nobody looked
+        if before is None or wall - before[0] > 10.0 * _PERIOD:  # no page was open
             return None
         passed, gain, spent = (now - then for now, then in zip(self._before, before, strict=True))
         if gain < 0.0 or spent <= 0.0:  # reset, paused, or a state of a log

@@ -75,7 +75,7 @@ class RosoutLog(logging.Handler):
         super().close()
 
     def emit(self, record: logging.LogRecord) -> None:
-        """Publish a record; where nobody else shows it, it is written to standard error."""
+        """Publish a record; write it to standard error if no other logger shows it."""
         level = next((ros for least, ros in _LEVELS if record.levelno >= least), _DEBUG)
         text = record.getMessage()
         self._publish(level, text, record.filename, record.lineno, record.funcName or "")

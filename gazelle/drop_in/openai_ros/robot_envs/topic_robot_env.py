@@ -150,7 +150,7 @@ class TopicRobotEnv(RobotGazeboEnv):
         if sensor.topic in known:
             hint = f"it is published as {known[sensor.topic]}; does time go on?"
         else:
-            hint = f"nobody publishes it; {did_you_mean(sensor.topic, known)}"
+            hint = f"it has no publisher; {did_you_mean(sensor.topic, known)}"
         return TaskError(
             f"{type(self).__name__} waited {PATIENCE_S:g} s for {sensor.topic} in vain", hint=hint
         )
@@ -184,7 +184,7 @@ class TopicRobotEnv(RobotGazeboEnv):
             while not each.get_num_connections():
                 if time.monotonic() > deadline:
                     raise TaskError(
-                        f"nobody listens to {each.resolved_name} after {PATIENCE_S:g} s",
+                        f"no subscriber on {each.resolved_name} after {PATIENCE_S:g} s",
                         hint="is the robot there, and are its controllers running?",
                     )
                 self._look_again()

@@ -1,4 +1,4 @@
-"""YAML of anybody: safe values, of which aliases do not make more than there is room for.
+"""Untrusted YAML: safe values, with a limit on those that aliases make.
 
 ``[*a, *a]`` shares a list that a traversal meets twice, so a file of a kilobyte can hold
 more values than any memory. What contains itself holds values without end.

@@ -54,7 +54,7 @@ class Control:
     def request(self, source: MuxInput, now: int) -> bool:
         """Return whether a command that a source sends at a time [ns] passes.
 
-        It does if nobody has control, the source itself has, or one of lower priority.
+        It does if no source has control, the source itself has, or one of lower priority.
         """
         source.stamp = now
         if self.holder is None or source.priority > self.holder.priority:

@@ -119,7 +119,9 @@ def add_import_option(parser: argparse.ArgumentParser) -> None:
         help="a module or file that registers your task (repeatable)",
     )
     parser.add_argument(
-        "--trust", action="store_true", help="import the code that a run names, whoever wrote it"
+        "--trust",
+        action="store_true",
+        help="import the Python modules that a run names, which may be untrusted",
     )
 
 

@@ -101,13 +101,13 @@ class MasterProxy:
             MasterUnreachableError: There is no server.
             NoMasterError: The server is no master.
         """
-        shy = MasterProxy(self.uri, self.caller, GREETING_S)
+        brief = MasterProxy(self.uri, self.caller, GREETING_S)
         try:
-            return shy.get_pid()
+            return brief.get_pid()
         except (FaultError, MarshalError, ProtocolError, ValueError) as error:
             raise _no_master(self.uri, str(error)) from None
         finally:
-            shy.close()
+            brief.close()
 
     def get_uri(self) -> str:
         """Return the URI the master has for itself."""

@@ -158,7 +158,7 @@ def too_short(needed: int, size: int) -> NoReturn:
 
 
 def too_many(count: int) -> NoReturn:
-    """Report an array of more empty messages than anybody sends.
+    """Report an array of implausibly many empty messages.
 
     Raises:
         struct.error: Always.

@@ -168,7 +168,7 @@ class ServicePool:
         with self._lock:
             before = self._offered.pop(name, None)
             if before is not None:
-                before[1].close(f"{name} was advertised anew")
+                before[1].close(f"{name} was advertised again")
             self._offered[name] = owner, OfferedService(self._node, name, kind, send)
         return before is not None
 

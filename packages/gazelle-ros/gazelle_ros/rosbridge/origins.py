@@ -16,7 +16,7 @@ def may_connect(origin: str | None, host: str, settings: BridgeSettings) -> bool
     """Return True if a client with these HTTP headers may connect.
 
     Programs send no origin and are let in. Pages are, if they are of this machine, come from the
-    very host whose rosbridge they ask for, or fit ``allowed_origins``. A page of somebody else's
+    very host whose rosbridge they ask for, or fit ``allowed_origins``. A page of another site
     that a browser here has open is not. It could call itself ``null`` by a sandboxed frame, as
     files do: that is let in where ``allowed_origins`` holds the word ``null`` itself, or
     ``websocket_null_origin`` is true. As such a page's host may be made to lead here (DNS rebinding), its name only counts as

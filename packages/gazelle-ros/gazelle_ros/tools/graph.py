@@ -76,7 +76,7 @@ class GraphInspector(Closeable):
         return self._uris[node]
 
     def service_uri(self, service: str) -> str | None:
-        """Return the address of a service; None if nobody offers it."""
+        """Return the address of a service; None if no node offers it."""
         try:
             return self.master.lookup_service(service)
         except ApiError:

@@ -17,7 +17,7 @@ _USAGE = """Commands:
     kill NAME...                   stop and unload controllers
     list                           list what is loaded
     list-types                     list the types that can be loaded
-    reload-libraries [--restore]   load the code of all controllers anew
+    reload-libraries [--restore]   load the code of all controllers again
 """
 _SHORT = {"sp": "spawn", "kl": "kill", "lc": "list", "lt": "list-types"}
 _OF_NAMES: dict[str, tuple[Callable[[str], bool], ...]] = {

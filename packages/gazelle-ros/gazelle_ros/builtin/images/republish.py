@@ -95,7 +95,7 @@ class CompressedPublisher:
         warn_of_unknown(topic, values, self._tuned.tunables)
 
     def publish(self, image: sensor_msgs.msg.Image) -> None:
-        """Publish an image compressed, if anybody has subscribed.
+        """Publish an image compressed, if there are subscribers.
 
         Raises:
             RosError: It cannot be compressed.

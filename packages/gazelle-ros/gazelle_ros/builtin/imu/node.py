@@ -44,7 +44,7 @@ class OrientationSettings:
         reverse_tf: With the IMU as the parent.
         constant_dt: Time between messages [s]; 0 takes their stamps.
         publish_debug_topics: Not supported.
-        time_jump_threshold: Shorter jumps back in time do not begin anew [s].
+        time_jump_threshold: Shorter jumps back in time do not reset the filter [s].
     """
 
     fixed_frame: str = "odom"
