@@ -150,7 +150,7 @@ def test_displays_are_removed_and_added_by_hand(graph):
     graph.choose("By type", "nav_msgs/Path")
     graph.fill("Its topic", "/later")
     graph.click("Add display")
-    graph.wait_text("/later: nobody publishes it")
+    graph.wait_text("/later: it has no publisher")
     poses = [message("geometry_msgs/PoseStamped") for _ in range(2)]
     poses[1].pose.position.x = 1.0
     graph.say("/later", "nav_msgs/Path", "map", poses=poses)

@@ -38,7 +38,7 @@ def arrivals(count, gap=0.5, since=0.0):
             {"unplaced": "no transform from base_scan to odom"},
             "no transform from base_scan to odom, so it is not shown",
         ),
-        (arrivals(4), {"publishers": 0, "offered": ""}, "nobody publishes it"),
+        (arrivals(4), {"publishers": 0, "offered": ""}, "it has no publisher"),
         (arrivals(4, since=7.0), {}, "no message for 7 s"),
     ],
 )
