@@ -17,6 +17,7 @@ from gazelle_ros import tool_names
 ROOT = Path(__file__).parent.parent
 PAGES = sorted([ROOT / "README.md", *(ROOT / "docs").rglob("*.md")])
 TUTORIALS = sorted((ROOT / "docs" / "tutorials").glob("*-*.md"))
+HOW_TO = sorted(set((ROOT / "docs" / "how-to").glob("*.md")) - {ROOT / "docs/how-to/index.md"})
 FENCE = re.compile(r"^```(\w+)(?: file=(\S+))?\n(.*?)^```", re.DOTALL | re.MULTILINE)
 EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
 
@@ -94,6 +95,14 @@ def test_an_example_runs_in_an_empty_folder(example, tmp_path):
         check=False,
     )
     assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("page", HOW_TO, ids=lambda p: p.name)
+def test_a_guide_answers_one_question_in_at_most_400_words(page):
+    """Code and tables do not count."""
+    text = re.sub(r"^```.*?^```", "", page.read_text(), flags=re.DOTALL | re.MULTILINE)
+    prose = [line for line in text.splitlines() if not line.startswith(("|", "    "))]
+    assert 20 < len(" ".join(prose).split()) <= 400
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda p: p.name)
