@@ -121,7 +121,8 @@ class TwistInput(StatePart):
                 f"the command on '{self.topic}' must be numbers, not {given!r}"
             ) from None
         # The sum of squares is finite if all values are, in one pass; very large values are checked below.
-        if not math.isfinite(np.vdot(values, values)) and not np.isfinite(values).all():
+        flat = values.reshape(-1)
+        if not math.isfinite(flat.dot(flat)) and not np.isfinite(values).all():
             raise SimulationError(f"the command on '{self.topic}' is not finite: {values}")
         if values.shape == (count,):
             return values

@@ -9,6 +9,8 @@ published reward is defined, although the burger could turn at 2.84 rad/s.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -21,7 +23,10 @@ ANGULAR_STEP = 0.75
 LINEAR_MAX = 0.22
 ANGULAR_MAX = 1.5
 
-_RATES: Floats = ANGULAR_STEP * ((ACTIONS - 1) / 2 - np.arange(ACTIONS, dtype=np.float64))
+# Yaw rates, each at its action plus one; what is beside them is no action.
+_RATES: Floats = np.full(ACTIONS + 2, math.nan)
+_RATES[1:-1] = ANGULAR_STEP * ((ACTIONS - 1) / 2 - np.arange(ACTIONS, dtype=np.float64))
+_ONE = np.ones(1, np.intp)
 
 
 def discrete_command(actions: ArrayLike, nworld: int) -> tuple[Floats, Floats]:
@@ -40,13 +45,14 @@ def discrete_command(actions: ArrayLike, nworld: int) -> tuple[Floats, Floats]:
     chosen = np.asarray(actions)
     if chosen.shape != (nworld,):
         raise TaskError(f"actions have shape {chosen.shape}, expected ({nworld},)")
-    whole = chosen.dtype.kind in "iu"
-    # What is below zero is large without a sign: one look is enough.
-    if not whole or not np.maximum.reduce(chosen.astype(np.uint64)) < ACTIONS:
+    if chosen.dtype.kind not in "iu":
+        raise TaskError(f"actions must be ints, not {chosen.dtype}")
+    rates = _RATES.take(chosen.astype(np.intp) + _ONE, mode="clip")
+    if not math.isfinite(rates.dot(rates)):  # one pass
         raise TaskError(f"actions must be ints from 0 to {ACTIONS - 1}")
     linear = np.empty(nworld)
     linear.fill(LINEAR)
-    return linear, _RATES.take(chosen)
+    return linear, rates
 
 
 def continuous_command(actions: ArrayLike, nworld: int) -> tuple[Floats, Floats]:

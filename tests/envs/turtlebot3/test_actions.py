@@ -20,7 +20,17 @@ def test_the_box_spans_the_burgers_speeds():
     assert angular.tolist() == [-1.5, 0.0, 1.5, -1.5]
 
 
-@pytest.mark.parametrize("actions", [[0], [0, 5], [0, -1], [0.0, 1.0], [[0], [1]]])
+def test_actions_are_ints_of_any_kind():
+    for kind in (np.int8, np.uint8, np.int32, np.uint64):
+        assert discrete_command(np.array([4, 0], kind), 2)[1].tolist() == [-1.5, 1.5]
+
+
+FAR = np.array([0, 2**64 - 1], np.uint64)
+
+
+@pytest.mark.parametrize(
+    "actions", [[0], [0, 5], [0, 10], [0, -1], [0, -6], [0, -11], [0.0, 1.0], [[0], [1]], FAR]
+)
 def test_what_is_no_action_is_refused(actions):
     with pytest.raises(TaskError, match="actions"):
         discrete_command(actions, 2)
