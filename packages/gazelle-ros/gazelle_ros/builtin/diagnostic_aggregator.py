@@ -16,6 +16,7 @@ from gazelle_ros.builtin.diagnostic_analyzers import (
     analyzers_of,
 )
 from gazelle_ros.builtin.diagnostics import ERROR
+from gazelle_ros.builtin.parameters import warn_of_others
 from gazelle_ros.msgs import diagnostic_msgs
 from gazelle_ros.node import Node
 from gazelle_ros.time import Time
@@ -34,6 +35,7 @@ class DiagnosticAggregator:
 
     def __init__(self, node: Node) -> None:
         self._node, self._lock = node, threading.Lock()
+        warn_of_others(node, ("analyzers", "base_path", "pub_rate", "other_as_errors"))
         values = node.get_param("~analyzers", {})
         if not isinstance(values, Mapping):
             raise RosError(f"{node.resolve('~analyzers')} must be a namespace, not {values!r:.60}")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 from typing import Any
 
-from gazelle_ros.base.parameter_values import Settings, settings_from
+from gazelle_ros.base.parameter_values import Settings, settings_from, warn_of_unknown
 from gazelle_ros.node import Node
 
 
@@ -13,6 +13,11 @@ def private_values(node: Node) -> dict[str, Any]:
     """Return all private parameters of a node, nested."""
     found = node.get_param(node.resolve("~"), {})
     return found if isinstance(found, dict) else {}
+
+
+def warn_of_others(node: Node, known: Collection[str]) -> None:
+    """Warn of the private parameters of a node that are not known."""
+    warn_of_unknown(node.resolve("~"), private_values(node), known)
 
 
 def settings_of(node: Node, kind: type[Settings], *, others: Collection[str] = ()) -> Settings:

@@ -11,6 +11,7 @@ from gazelle_ros.base.errors import RosError
 from gazelle_ros.builtin.arguments import parse_arguments, run_node, spin
 from gazelle_ros.builtin.diagnostics import DiagnosticPublisher
 from gazelle_ros.builtin.mux_inputs import MuxInput, mux_input
+from gazelle_ros.builtin.parameters import warn_of_others
 from gazelle_ros.msgs import geometry_msgs, std_msgs, visualization_msgs
 from gazelle_ros.node import Node
 
@@ -60,6 +61,7 @@ class TwistMux:
     def __init__(self, node: Node) -> None:
         self._node = node
         self._lock = threading.Lock()
+        warn_of_others(node, ("topics", "locks"))
         self.priorities = Priorities(list(_sources(node, "topics")), list(_sources(node, "locks")))
         if not self.priorities.velocities:
             _LOG.warning("%s/topics is empty: no command is forwarded", node.name)

@@ -12,9 +12,10 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from gazelle_ros.base.errors import RosError
-from gazelle_ros.base.parameter_values import value_of, warn_of_unknown
+from gazelle_ros.base.parameter_values import value_of
 from gazelle_ros.clock import SECOND
 from gazelle_ros.msgs import sensor_msgs
+from gazelle_ros.robot.own_parameters import own_parameters
 from gazelle_ros.robot.tree import (
     MOVABLE,
     JointTree,
@@ -55,8 +56,7 @@ class JointStatePublisher:
 
     def __init__(self, node: Node, joints: JointTree, sources: Sequence[str] = ()) -> None:
         self._node = node
-        values = node.get_param(node.resolve("~"), {})
-        warn_of_unknown(node.resolve("~"), values if isinstance(values, dict) else {}, _KNOWN)
+        values = own_parameters(node, _KNOWN)
         joints = _with_dependents(node, joints)
         if node.get_param("~use_smallest_joint_limits", True):
             joints = {name: _within_soft_limits(each) for name, each in joints.items()}

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from gazelle_ros.clock import SECOND
 from gazelle_ros.msgs import geometry_msgs, sensor_msgs, tf2_msgs
+from gazelle_ros.robot.own_parameters import own_parameters
 from gazelle_ros.robot.tree import MOVABLE, JointTree, TreeJoint, position_of
 from gazelle_ros.tf.naming import FramePrefixes, resolve_frame
 from gazelle_ros.time import Time
@@ -18,6 +19,10 @@ if TYPE_CHECKING:
     from gazelle_ros.node import Node
 
 _LOG = logging.getLogger("gazelle.ros.robot")
+_KNOWN = (
+    "publish_frequency", "use_tf_static", "ignore_timestamp", "frame_prefix", "tf_prefix",
+    "robot_description",
+)  # fmt: skip
 _AHEAD_NS = SECOND // 2
 """Time by which stamps of fixed joints are ahead when they are sent repeatedly."""
 
@@ -37,6 +42,7 @@ class RobotStatePublisher:
     def __init__(self, node: Node, joints: JointTree) -> None:
         self._node = node
         self._joints = joints
+        own_parameters(node, _KNOWN)
         self._prefix = str(node.get_param("~frame_prefix", "") or "")
         self._tf_prefix = FramePrefixes(node).of(node.name)
         self._period = 1.0 / max(1e-3, float(node.get_param("~publish_frequency", 50.0)))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from gazelle_ros.builtin.arguments import CallbackWork
+from gazelle_ros.builtin.parameters import warn_of_others
 from gazelle_ros.builtin.switching import EnableSwitch
 from gazelle_ros.msgs import kobuki_msgs
 from gazelle_ros.node import Node
@@ -22,6 +23,7 @@ class BumpBlink(CallbackWork):
 
     def __init__(self, node: Node) -> None:
         super().__init__(node)
+        warn_of_others(node, ())
         self.switch = EnableSwitch(node, on=False)
         self._light = node.advertise("~commands/led1", _LED, queue_size=_QUEUE)
         node.subscribe("~events/bumper", _BUMPER, self._take, _QUEUE)

@@ -11,6 +11,7 @@ from gazelle_ros.base.errors import Error
 from gazelle_ros.builtin.arguments import CallbackWork, NodeWork
 from gazelle_ros.builtin.nodelets.bonds import BondHolder
 from gazelle_ros.builtin.nodelets.node import NodeletNode
+from gazelle_ros.builtin.parameters import warn_of_others
 from gazelle_ros.builtin.registry import nodelet
 from gazelle_ros.errors import NodeClosedError, report
 from gazelle_ros.msgs import nodelet as messages
@@ -30,6 +31,7 @@ class NodeletManager(CallbackWork):
 
     def __init__(self, node: Node) -> None:
         super().__init__(node)
+        warn_of_others(node, ("num_worker_threads",))
         self._loaded: dict[str, _LoadedNodelet] = {}
         self._lock = threading.Lock()
         self._ending = False

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from gazelle_ros.base.array_types import Floats
-from gazelle_ros.builtin.images.conversion import ImageConversion
+from gazelle_ros.builtin.images.conversion import TRANSPORT_PARAMETERS, ImageConversion
+from gazelle_ros.builtin.parameters import warn_of_others
 from gazelle_ros.compat.cv_bridge import CvBridge
 from gazelle_ros.msgs import sensor_msgs
 from gazelle_ros.node import Node
@@ -58,6 +59,7 @@ def converted(image: sensor_msgs.msg.Image) -> sensor_msgs.msg.Image:
 
 def convert_metric(node: Node) -> ImageConversion:
     """Return the work of ``convert_metric``: depth images of ``image_raw`` on ``image``."""
+    warn_of_others(node, TRANSPORT_PARAMETERS)
     kind = sensor_msgs.msg.Image
     return ImageConversion(
         node, [("image_raw", kind)], [("image", kind)], lambda image: [converted(image)]
