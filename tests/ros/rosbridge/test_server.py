@@ -299,7 +299,7 @@ def test_types_that_differ_are_refused(robot, client):
 
 
 def test_levels_of_status(robot, client):
-    assert "authenticates" in client.ask("auth")["msg"]
+    assert "does not support authentication" in client.ask("auth")["msg"]
     client.say("set_level", level="none")
     client.say("auth")
     client.settled()
