@@ -88,7 +88,7 @@ class BaseController(Controller):
         return self._frames_port in self._published
 
     def publish_frames(self, *, enabled: bool) -> None:
-        """Publish the frame of the odometry with it, or do not."""
+        """Enable or disable publishing of the odometry frame."""
         if enabled and not self.framed:
             self._published.append(self._frames_port)
         elif self.framed and not enabled:

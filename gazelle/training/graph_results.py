@@ -63,7 +63,7 @@ class _ResultWriter(KVWriter):  # type: ignore[misc]  # untyped base
             self._publisher.publish(floats_message(["score", "max_q"], values))
 
     def close(self) -> None:
-        """Leave the graph."""
+        """Close the node."""
         self._node.close()
 
     def _largest_output(self) -> float:

@@ -313,7 +313,7 @@ def _learnable(space: gym.Space[Any]) -> tuple[gym.spaces.Box, DictRows | None]:
 
 
 def _numbers(info: dict[str, Any], slots: npt.NDArray[np.intp]) -> dict[str, Floats]:
-    """Return the numeric entries of info at some copies by name: shapes (k,) or (k, few)."""
+    """Return the numeric entries of info for some environments, by name; shape (k,) or (k, n)."""
     found = {}
     for name, values in info.items():
         array = np.asarray(values) if not isinstance(values, dict) else np.zeros(0, np.object_)

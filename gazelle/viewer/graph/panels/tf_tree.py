@@ -26,7 +26,7 @@ class TfTreePanel(GraphPanel):
         self._drawn = ""
 
     def build(self) -> None:
-        """Add the picture."""
+        """Add the image of the tree to the page."""
         self._text: Any = self.context.gui.add_markdown("")
         self._picture: Any = self.context.gui.add_html("")
 
