@@ -60,10 +60,13 @@ def _binary(data: bytes, count: int) -> NDArray[np.float64]:
 
 def _text(data: bytes) -> NDArray[np.float64]:
     data = _NAME.sub(b"solid", data.lower())
+    vertices = _VERTEX.findall(data)
     try:
-        corners = np.array(_VERTEX.findall(data), dtype=np.float64).reshape(-1, 3)
-    except ValueError as error:
-        raise FormatError(f"a vertex of the STL file is wrong: {error}", hint=_AGAIN) from None
+        corners = np.array(vertices, dtype=np.float64).reshape(-1, 3)
+    except ValueError:
+        wrong = next(word for vertex in vertices for word in vertex if not _is_number(word))
+        text = f"a vertex of the STL file is wrong: '{wrong.decode(errors='replace')}' is not a number"
+        raise FormatError(text, hint=_AGAIN) from None
     tail = data.rpartition(b"end")[2]  # "solid", "facet" or "loop"
     if len(corners) % 3 or (not tail.startswith(b"solid") and len(tail.split()) > 2):
         raise FormatError(
@@ -83,3 +86,11 @@ def _weld(corners: NDArray[np.float64]) -> Triangles:
     rank = np.empty_like(order)
     rank[order] = np.arange(len(order))
     return corners[first[order]], rank[inverse].reshape(-1, 3).astype(np.int32)
+
+
+def _is_number(word: bytes) -> bool:
+    try:
+        np.array([word], dtype=np.float64)
+    except ValueError:
+        return False
+    return True

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from gazelle.description import Joint
+from gazelle.errors import Error
 
 
 def leaders_of(joints: Iterable[tuple[str, Joint]]) -> dict[str, str]:
@@ -25,3 +26,24 @@ def mimic_cycle(joint: str, leaders: dict[str, str]) -> list[str]:
         if leader in path[:-1]:
             return path if leader == joint else []
     return []
+
+
+def refuse_cycle(name: str, joint: Joint, leaders: dict[str, str], error: type[Error]) -> None:
+    """Refuse a joint that mimics itself, through others or not.
+
+    Args:
+        name: Of the joint, as in the leaders.
+        joint: The joint.
+        leaders: Of ``leaders_of``.
+        error: Class of the error.
+
+    Raises:
+        Error: It does.
+    """
+    circle = mimic_cycle(name, leaders)
+    if circle:
+        raise error(
+            f"joint '{name}' mimics itself: {' -> '.join(circle)}",
+            source=joint.source,
+            hint="let one of them mimic no other",
+        )

@@ -1,4 +1,4 @@
-"""Limits of pictures and films, which arguments and files make large."""
+"""Limits of pictures, films and plots, which arguments and files make large."""
 
 from __future__ import annotations
 
@@ -18,6 +18,9 @@ MIN_RATE, MAX_RATE = 0.01, 1000.0
 
 MAX_GIF_PIXELS = 1 << 31
 """Of all pictures of a GIF together, which are in memory until it is written, a byte each."""
+
+MOST_PANELS = 50
+"""Of a plot, one for each column."""
 
 _LONGEST = {".webp": 16383, ".jpg": 65500, ".jpeg": 65500, ".gif": 65535, ".mp4": 16384}
 """Longest side of a picture in a format [pixel]."""

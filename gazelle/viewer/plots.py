@@ -11,6 +11,7 @@ import numpy as np
 
 from gazelle.array_types import Floats
 from gazelle.errors import FormatError, MissingExtraError, did_you_mean
+from gazelle.viewer.limits import MOST_PANELS
 from gazelle_ros.base.text_files import read_rows
 from gazelle_ros.base.writing import replacing
 
@@ -25,6 +26,8 @@ _CURVES = {
     "episodes/success_rate": "goals reached [share]",
     "episodes/return": "return of an episode",
 }
+_LARGEST = 1e100
+_LONGEST_NAME = 80
 _STYLES = ("-", "--", "-.", ":")  # distinguished in print, too
 
 
@@ -66,14 +69,16 @@ def plot_table(table: Path, columns: Sequence[str], file: Path) -> None:
         MissingExtraError: Matplotlib is not installed.
     """
     found = read_table(table)
-    first, *others = found
+    first, *others = found or [""]
     for name in columns:
         if name not in found:
             hint = did_you_mean(name, others)
             raise FormatError(f"there is no column '{name}' of numbers", file=str(table), hint=hint)
     drawn = list(columns) or others
     if not drawn:
-        raise FormatError("there is one column of numbers, and nothing to draw", file=str(table))
+        number = "one" if found else "no"
+        text = f"there is {number} column of numbers, and nothing to draw"
+        raise FormatError(text, file=str(table))
     plot_series({name: (found[first], found[name]) for name in drawn}, first, file)
 
 
@@ -86,15 +91,21 @@ def plot_series(series: Series, horizontal: str, file: Path) -> None:
         file: The picture.
 
     Raises:
+        FormatError: There are more than 50 panels.
         MissingExtraError: Matplotlib is not installed.
     """
     panels: dict[str, dict[str, tuple[Floats, Floats]]] = {}
     for name, line in series.items():
         panels.setdefault(name.rpartition("/")[0] or name, {})[name] = line
+    if len(panels) > MOST_PANELS:
+        raise FormatError(
+            f"{len(panels)} columns are more than the {MOST_PANELS} that one picture has",
+            hint="name those that matter: --field NAME",
+        )
     figure = _figure(len(panels))
     for axes, (name, lines) in zip(figure.axes, panels.items(), strict=True):
         draw_lines(axes, lines, "", name if len(lines) > 1 else next(iter(lines)))
-    figure.axes[-1].set_xlabel(horizontal)
+    figure.axes[-1].set_xlabel(_short(horizontal))
     _save(figure, file)
 
 
@@ -128,15 +139,25 @@ def plot_paths(paths: Mapping[str, Floats], grid: OccupancyMap | None, file: Pat
 
 
 def draw_lines(axes: Any, lines: Series, horizontal: str, vertical: str) -> None:
-    """Draw lines into one panel."""
+    """Draw lines into one panel; values beyond 1e100 are left out."""
     for number, (name, (x, y)) in enumerate(lines.items()):
         style = "o" if len(x) == 1 else _STYLES[number % len(_STYLES)]  # one point has no line
-        axes.plot(x, y, style, label=name, linewidth=1.5)
-    axes.set_xlabel(horizontal)
-    axes.set_ylabel(vertical)
+        axes.plot(_drawable(x), _drawable(y), style, label=_short(name), linewidth=1.5)
+    axes.set_xlabel(_short(horizontal))
+    axes.set_ylabel(_short(vertical))
     axes.grid(alpha=0.3)
     if len(lines) > 1:
         axes.legend(loc="best", fontsize="small")
+
+
+def _drawable(values: Floats) -> Floats:
+    """Return values with NaN where they are too large for the arithmetic of axes."""
+    given = np.asarray(values, np.float64)
+    return np.where(np.abs(given) <= _LARGEST, given, np.nan)
+
+
+def _short(name: str) -> str:
+    return name if len(name) <= _LONGEST_NAME else f"{name[:_LONGEST_NAME]}..."
 
 
 def read_table(path: Path) -> dict[str, Floats]:
@@ -193,6 +214,8 @@ def _save(figure: Any, file: Path) -> None:
         raise FormatError(
             f"a plot is written as {', '.join(PLOTS)}, not as '{file.suffix}'", file=str(file)
         )
+    for text in figure.findobj(lambda artist: hasattr(artist, "set_parse_math")):
+        text.set_parse_math(False)  # names of columns may have dollars
     try:
         with replacing(file) as draft:
             figure.savefig(draft, dpi=120)

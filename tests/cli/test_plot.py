@@ -117,6 +117,20 @@ def test_columns_of_a_table(tmp_path):
 
 
 @pytest.mark.parametrize(
+    "table",
+    [
+        "time,a$\\frac{$,b/x$^$,b/$_\n0,1,2,3\n1,2,3,4\n",
+        "time,a,b\n0,1e308,inf\n1,-1e308,-1e400\n",
+        f"{'t' * 5000},{'a' * 5000}\n0,1\n",
+    ],
+    ids=["formulas", "huge numbers", "long names"],
+)
+def test_odd_tables_are_plotted(tmp_path, table):
+    (tmp_path / "t.csv").write_text(table)
+    assert main(["plot", str(tmp_path / "t.csv"), str(tmp_path / "t.png")]) == 0
+
+
+@pytest.mark.parametrize(
     ("words", "said"),
     [
         (["drive.bag", "x.png", "--topic", "/odm"], "did you mean '/odom'?"),
@@ -126,11 +140,19 @@ def test_columns_of_a_table(tmp_path):
         (["drive.bag", "x.gif"], "a plot is written as .png, .svg, .pdf, not as '.gif'"),
         (["t.csv", "x.png", "--field", "rft"], "no column 'rft' of numbers"),
         (["none.csv", "x.png"], "cannot read it"),
+        (["words.csv", "x.png"], "there is no column of numbers"),
+        (["one.csv", "x.png"], "there is one column of numbers"),
+        (["wide.csv", "x.png"], "60 columns are more than the 50"),
     ],
 )
 def test_what_cannot_be_plotted(bag, tmp_path, words, said, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "t.csv").write_text("wall,rtf\n0,1.0\n1,0.5\n")
+    (tmp_path / "words.csv").write_text("a,b\nx,y\n")
+    (tmp_path / "one.csv").write_text("a\n1\n")
+    (tmp_path / "wide.csv").write_text(
+        ",".join(f"c{n}" for n in range(61)) + "\n" + "1," * 60 + "1\n"
+    )
     assert main(["plot", *words]) == 1
     assert said in capsys.readouterr().err
     assert not (tmp_path / "x.png").exists()

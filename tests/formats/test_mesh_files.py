@@ -66,6 +66,8 @@ def test_several_solids_of_a_text_stl_are_one_mesh():
         (BINARY[:100], "12 triangles, there are 0"),
         (b"solid".ljust(80) + BINARY[80:-1], "12 triangles, there are 11"),
         (b"rubbish", "not an STL file"),
+        (TEXT.replace("vertex ", "vertex -x ", 1).encode(), "'-x' is not a number"),
+        (TEXT.replace("vertex ", "vertex é ", 1).encode(), "is not a number"),
         (b"<html>not found</html>" * 20, "not an STL file"),
         (f"solid x\n{FACET}{FACET[:50]}".encode(), "cut short"),
         (f"solid x\n{FACET}{FACET[:58]}".encode(), "cut short"),

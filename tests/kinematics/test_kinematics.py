@@ -7,7 +7,7 @@ import pytest
 
 from gazelle.description import Pose, World
 from gazelle.engines.mujoco import to_mjcf
-from gazelle.errors import Error, PlanningError
+from gazelle.errors import Error, FormatWarning, PlanningError
 from gazelle.formats import load_model_string
 from gazelle.kinematics import RobotModel
 
@@ -191,6 +191,23 @@ def test_a_robot_of_two_parts_is_refused():
     other = '<robot name="two"><link name="a"/><link name="b"/></robot>'
     with pytest.raises(Error, match=r"root|tree"):
         RobotModel(load_model_string(other))
+
+
+@pytest.mark.parametrize("leaders", [("one",), ("two", "one"), ("two", "three", "one")])
+def test_joints_that_only_mimic_each_other_are_refused(leaders):
+    names = ("one", "two", "three")
+    text = "<robot name='r'><link name='base'/>"
+    for place, leader in enumerate(leaders):
+        text += (
+            f"<link name='{names[place]}_link'/><joint name='{names[place]}' type='continuous'>"
+            f"<parent link='{f'{names[place - 1]}_link' if place else 'base'}'/>"
+            f"<child link='{names[place]}_link'/><axis xyz='0 0 1'/><mimic joint='{leader}'/></joint>"
+        )
+    with (
+        pytest.warns(FormatWarning, match="mass"),
+        pytest.raises(PlanningError, match="'one' mimics itself: one -> "),
+    ):
+        RobotModel(load_model_string(text + "</robot>"))
 
 
 @pytest.mark.parametrize(

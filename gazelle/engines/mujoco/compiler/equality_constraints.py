@@ -17,7 +17,7 @@ from gazelle.description import Inertial, Joint, Mimic, Pose
 from gazelle.engines.mujoco.compiler.inertia import inertia_of, possible
 from gazelle.engines.mujoco.compiler.joints import add_joint
 from gazelle.errors import EngineError, EngineWarning, did_you_mean, located
-from gazelle.kinematics.mimics import leaders_of, mimic_cycle
+from gazelle.kinematics.mimics import leaders_of, refuse_cycle
 from gazelle.kinematics.tree import Closure, TreeLink, lost_in_loop
 
 # Time constant of a coupling, in physics steps, and its damping ratio.
@@ -51,7 +51,7 @@ def add_couplings(spec: mujoco.MjSpec, bodies: Iterable[TreeLink], time_step: fl
             if axis.mimic is not None:
                 mimic = axis.mimic
                 _require_leader(body.joint_name, joint, mimic, axes)
-                _refuse_cycle(body.joint_name, joint, leaders)
+                refuse_cycle(body.joint_name, joint, leaders, EngineError)
                 follower = _coordinate(body.joint_name, index)
                 leader = _coordinate(mimic.joint, mimic.axis)
                 start = mimic.offset - mimic.multiplier * mimic.reference
@@ -86,16 +86,6 @@ def _require_leader(name: str, joint: Joint, mimic: Mimic, axes: Mapping[str, in
             f"joint '{name}' mimics axis {mimic.axis} of '{mimic.joint}', which has "
             f"{others[mimic.joint]}",
             source=joint.source,
-        )
-
-
-def _refuse_cycle(name: str, joint: Joint, leaders: dict[str, str]) -> None:
-    circle = mimic_cycle(name, leaders)
-    if circle:
-        raise EngineError(
-            f"joint '{name}' mimics itself: {' -> '.join(circle)}",
-            source=joint.source,
-            hint="let one of them mimic no other",
         )
 
 
