@@ -29,6 +29,9 @@ MAX_ITERATIONS = 1000
 # A world takes a kilobyte at the very least.
 MAX_WORLDS = 2**20
 
+MAX_COORDINATES = 50_000
+"""Coordinates of motion of one world in space: matrices of the solver grow with their square."""
+
 MAX_RAYS = 4_000_000
 """Of one range finder, all rows together."""
 

@@ -20,6 +20,15 @@ HEAVIEST = 1e15
 """Greatest mass [kg] or moment of inertia [kg m²]: squares of such are still numbers."""
 
 
+MAX_TEXT = 4_000_000
+"""Characters that an expression of a xacro file makes."""
+
+MAX_FILES = 10_000
+"""Included files of a world, each counted as often as it is read."""
+
+MAX_POINTS = 10_000
+"""Points of a polyline."""
+
 MAX_BYTES = 512 * 2**20
 """Size of a file of a mesh, a picture or elevations."""
 

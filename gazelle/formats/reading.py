@@ -12,6 +12,7 @@ from typing import Literal
 
 from gazelle.description import Parameters, Source
 from gazelle.errors import FormatError, FormatWarning, ResolveError, describe
+from gazelle.formats.limits import MAX_FILES
 from gazelle.formats.resolve import Resolver
 
 MAX_INCLUDES = 32
@@ -65,6 +66,7 @@ class Reading:
         misses: Missing files.
         notes: Notes on parts that are not simulated as written, in the order found.
         including: Files being read, outermost first.
+        files: Number of files that were read so far, each as often as it was.
     """
 
     resolver: Resolver
@@ -73,6 +75,7 @@ class Reading:
     misses: list[Miss] = field(default_factory=list)
     notes: dict[Note, None] = field(default_factory=dict)
     including: list[Path] = field(default_factory=list)
+    files: int = 0
 
     @property
     def is_plain(self) -> bool:
@@ -130,6 +133,9 @@ class Reading:
             raise FormatError(f"'{file}' includes itself", source=source)
         if len(self.including) >= MAX_INCLUDES:
             raise FormatError(f"more than {MAX_INCLUDES} includes in each other", source=source)
+        self.files += 1
+        if self.files > MAX_FILES:
+            raise FormatError(f"more than {MAX_FILES:,} files are included", source=source)
         outer = self.folder
         self.including.append(file)
         self.folder = file.parent

@@ -65,7 +65,9 @@ def _text(data: bytes) -> NDArray[np.float64]:
         corners = np.array(vertices, dtype=np.float64).reshape(-1, 3)
     except ValueError:
         wrong = next(word for vertex in vertices for word in vertex if not _is_number(word))
-        text = f"a vertex of the STL file is wrong: '{wrong.decode(errors='replace')}' is not a number"
+        text = (
+            f"a vertex of the STL file is wrong: '{wrong.decode(errors='replace')}' is not a number"
+        )
         raise FormatError(text, hint=_AGAIN) from None
     tail = data.rpartition(b"end")[2]  # "solid", "facet" or "loop"
     if len(corners) % 3 or (not tail.startswith(b"solid") and len(tail.split()) > 2):

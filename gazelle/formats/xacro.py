@@ -27,6 +27,7 @@ from gazelle.description import Parameters, Source
 from gazelle.errors import FormatError
 from gazelle.formats import expressions, xml
 from gazelle.formats.lfs import refuse_pointer_file
+from gazelle.formats.limits import MAX_TEXT
 from gazelle.formats.reading import Reading
 from gazelle.formats.xacro_hints import hint_of
 from gazelle_ros.base import bounded_yaml, xacro_engine
@@ -269,8 +270,17 @@ _evaluate_text = engine.eval_text
 
 
 def _eval_text(text: str, symbols: Any) -> Any:
-    """Evaluate a text; most hold no expression, and are returned at once."""
-    return text if text and "$" not in text else _evaluate_text(text, symbols)
+    """Evaluate a text; most hold no expression, and are returned at once.
+
+    Raises:
+        FormatError: It makes a text that is too long, such as properties do that repeat each other.
+    """
+    if text and "$" not in text:
+        return text
+    value = _evaluate_text(text, symbols)
+    if isinstance(value, str) and len(value) > MAX_TEXT:
+        raise FormatError(f"the expression makes more than {MAX_TEXT:,} characters")
+    return value
 
 
 def _explain(error: Exception, name: str) -> FormatError:

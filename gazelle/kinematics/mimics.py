@@ -29,7 +29,7 @@ def mimic_cycle(joint: str, leaders: dict[str, str]) -> list[str]:
 
 
 def refuse_cycle(name: str, joint: Joint, leaders: dict[str, str], error: type[Error]) -> None:
-    """Refuse a joint that mimics itself, through others or not.
+    """Check that a joint does not mimic itself, through others or not.
 
     Args:
         name: Of the joint, as in the leaders.
@@ -38,7 +38,7 @@ def refuse_cycle(name: str, joint: Joint, leaders: dict[str, str], error: type[E
         error: Class of the error.
 
     Raises:
-        Error: It does.
+        Error: It mimics itself.
     """
     circle = mimic_cycle(name, leaders)
     if circle:

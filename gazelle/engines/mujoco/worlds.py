@@ -119,6 +119,7 @@ class RunningWorlds:
         self.revision = self.computed = 0
         self.moved: Floats = np.zeros(2)
         self._drafted: tuple[World, frozenset[str], dict[str, list[TreeLink]]] | None = None
+        self._drafted_axes: tuple[Mapping[str, list[TreeLink]], dict[str, int]] | None = None
 
     if not TYPE_CHECKING:  # what is compiled is had by attributes that the class names
 
@@ -209,9 +210,12 @@ class RunningWorlds:
         """Return the number of axes of a joint in uncompiled worlds, which are at zero; 0 if compiled."""
         if self.revision:
             return 0
-        every = (body for parts in self.bodies().values() for body in parts)
-        kinds = (b.joint.type for b in every if b.joint is not None and b.joint_name == joint)
-        return AXES.get(next(kinds, ""), 0)
+        parts, known = self.bodies(), self._drafted_axes
+        if known is None or known[0] is not parts:
+            joints = ((b.joint_name, b.joint) for each in parts.values() for b in each)
+            axes = {name: AXES.get(each.type, 0) for name, each in joints if each is not None}
+            known = self._drafted_axes = parts, axes
+        return known[1].get(joint, 0)
 
     def joint_names(self) -> tuple[str, ...]:
         """Return scoped names of movable joints."""

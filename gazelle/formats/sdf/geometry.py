@@ -24,6 +24,7 @@ from gazelle.description import (
 )
 from gazelle.formats import values
 from gazelle.formats.extent import extent, replaced, scale
+from gazelle.formats.limits import MAX_POINTS
 from gazelle.formats.reading import Reading
 
 
@@ -160,8 +161,10 @@ def read_image(node: Parameters, reading: Reading) -> Image:
 
 def read_polyline(node: Parameters, _: Reading) -> Polyline:
     """Read ``<polyline><point>...<height>``."""
-    points = []
+    points: list[tuple[float, float]] = []
     for child in node.find_all("point"):
+        if len(points) == MAX_POINTS:
+            raise values.fail(child, f"a polyline has at most {MAX_POINTS:,} points")
         x, y = values.parse_reals(child, child.text, "<point>", 2)
         points.append((x, y))
     return Polyline((tuple(points),), values.real(node, "height", 1.0))

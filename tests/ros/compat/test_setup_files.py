@@ -190,3 +190,17 @@ def test_a_script_that_it_names_runs_by_package_and_name(workspace, script):
         check=False,
     )
     assert done.stdout == "7\n", done.stderr
+
+
+@pytest.mark.parametrize("twice", ["a = a + a", "a += a", "a = [*a, *a]"])
+def test_lists_that_grow_without_end_are_unknown(tmp_path, twice):
+    folder = make_package(
+        tmp_path, "led", f"a = ['led']\n{chr(10).join([twice] * 60)}\nsetup(packages=a)"
+    )
+    write_module(folder / "led" / "__init__.py")
+    assert python_code(folder).packages == {"led": folder / "led"}
+
+
+def test_texts_that_grow_without_end_are_unknown(tmp_path):
+    text = "a = 'led'\n" + "a = f'{a}{a}'\n" * 60 + "setup(packages=[a])"
+    assert not python_code(make_package(tmp_path, "led", text)).packages

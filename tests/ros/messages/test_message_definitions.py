@@ -343,3 +343,13 @@ def test_odd_names_that_can_be_printed_are_read(name):
     made = class_from_text(name, "int32 a\n")
     assert made._type == name
     assert made().deserialize(b"\1\0\0\0").a == 1
+
+
+def test_fixed_arrays_within_fixed_arrays_are_limited():
+    """A new message has all of their elements, which is more than memory holds."""
+    for place in range(9):
+        inner = f"Nest{place + 1}[10] inner\n" if place < 8 else "int32 x\n"
+        register("nests", f"Nest{place}", inner)
+    assert len(load_message("nests/Nest4")().inner) == 10
+    with pytest.raises(InvalidDefinitionError, match=r"nests/Nest0 has 100,000,000 elements"):
+        load_message("nests/Nest0")

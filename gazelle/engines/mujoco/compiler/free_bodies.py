@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 
 import mujoco
 
 from gazelle.description import Box, Capsule, Cylinder, Ellipsoid, Model, Sphere, World
-from gazelle.errors import EngineWarning
+from gazelle.engines.limits import MAX_COORDINATES
+from gazelle.engines.mujoco.compiler.motors import AXES
+from gazelle.errors import EngineError, EngineWarning
+from gazelle.kinematics.tree import TreeLink
 
 # From this number of free bodies on the time saved outweighs an ``MjData`` for every world.
 _MANY = 16
@@ -24,6 +27,27 @@ _FAST = 20.0
 # a step only where the world enables it. MuJoCo then looks at every pair in every step, at 7 to
 # 12 ns each, instead of in trees of boxes: a city took 0.45 s a step, of which 0.44 s for that.
 _MOST_PAIRS = 200_000
+
+
+def check_coordinates(bodies: Mapping[str, list[TreeLink]]) -> None:
+    """Check that a world is no larger than the solver can hold, before it is compiled for minutes.
+
+    Args:
+        bodies: Of all models, by their names.
+
+    Raises:
+        EngineError: It has more than 50,000 coordinates of motion.
+    """
+    every = [body for parts in bodies.values() for body in parts]
+    joints = [body.joint for body in every if body.joint is not None]
+    count = sum(6 for body in every if body.root == "free")
+    count += sum(AXES.get(joint.type, 0) for joint in joints)
+    if count > MAX_COORDINATES:
+        raise EngineError(
+            f"the world has {count:,} coordinates of motion, more than the limit of "
+            f"{MAX_COORDINATES:,}",
+            hint="let models that nothing shall move be static",
+        )
 
 
 def allows_sleep(world: World, kinematic: Collection[str] = ()) -> bool:

@@ -24,7 +24,10 @@ from gazelle.engines.mujoco.compiler.contact_pairs import (
 )
 from gazelle.engines.mujoco.compiler.description_edits import with_frame_link
 from gazelle.engines.mujoco.compiler.equality_constraints import add_closure, add_couplings, at_rest
-from gazelle.engines.mujoco.compiler.free_bodies import limit_speculative_contacts
+from gazelle.engines.mujoco.compiler.free_bodies import (
+    check_coordinates,
+    limit_speculative_contacts,
+)
 from gazelle.engines.mujoco.compiler.gyroscopic_forces import swings, tumbling
 from gazelle.engines.mujoco.compiler.inertia import inertia_of, possible, restore_inertias
 from gazelle.engines.mujoco.compiler.joint_limits import tune_stops
@@ -213,6 +216,7 @@ def draft_world(recipe: CompilerInput) -> Draft:
     set_options(spec, recipe.world, recipe.time_step, recipe.kinematic)
     trees = trees_of(recipe)
     bodies = {name: tree.bodies for name, tree in trees.items()}
+    check_coordinates(bodies)
     held = {body.name for parts in bodies.values() for body in parts if body.root is not None}
     slips = slipping(described_slips(bodies.values()), recipe.slip_links - held)
     builder = _SpecBuilder(spec, recipe, bodies, slips)

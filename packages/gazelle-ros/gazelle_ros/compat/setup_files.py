@@ -16,6 +16,8 @@ from typing import Any
 
 _MOST_BYTES = 1 << 20
 _DEEPEST = 8
+_LONGEST = 100_000
+"""Characters of a text and items of a list that a file adds up."""
 _CALLS = {"setup", "generate_distutils_setup"}
 _COPIES = {"list", "sorted", "tuple", "set"}
 
@@ -137,7 +139,8 @@ class _SetupReader:
         """Return the text of an f-string that formats texts alone."""
         plain = [each.value if isinstance(each, ast.FormattedValue) else each for each in parts]
         texts = [self.value(each) for each in plain]
-        return "".join(texts) if all(isinstance(each, str) for each in texts) else _UNKNOWN
+        known = all(isinstance(each, str) for each in texts)
+        return "".join(texts) if known and sum(map(len, texts)) <= _LONGEST else _UNKNOWN
 
     def _items(self, items: list[ast.expr]) -> Any:
         found: list[Any] = []
@@ -146,6 +149,8 @@ class _SetupReader:
             if value is _UNKNOWN:
                 return _UNKNOWN
             found += value if isinstance(item, ast.Starred) and isinstance(value, list) else [value]
+            if len(found) > _LONGEST:
+                return _UNKNOWN
         return found
 
     def _pairs(self, keys: list[ast.expr | None], values: list[ast.expr]) -> dict[Any, Any]:
@@ -205,7 +210,7 @@ class _SetupReader:
 
 def _sum(left: Any, right: Any) -> Any:
     alike = isinstance(left, (str, list)) and type(left) is type(right)
-    return left + right if alike else _UNKNOWN
+    return left + right if alike and len(left) + len(right) <= _LONGEST else _UNKNOWN
 
 
 def _texts(value: Any) -> list[str]:

@@ -12,6 +12,7 @@ from gazelle_ros.base import characters
 from gazelle_ros.base.bundled_packages import published, published_hint
 from gazelle_ros.base.errors import FormatWarning, describe
 from gazelle_ros.launch.errors import LaunchError
+from gazelle_ros.launch.limits import read_bounded
 
 _DEEPEST = 200
 
@@ -67,7 +68,7 @@ def read_document(path: str) -> Element:
         LaunchError: There is no such file, it is not XML, or it has not exactly one ``<launch>``.
     """
     try:
-        data = published(path).read_bytes()
+        data = read_bounded(published(path))
     except FileNotFoundError:
         hint = published_hint(path)
         raise LaunchError("there is no such launch file", file=path, hint=hint) from None

@@ -10,6 +10,7 @@ from gazelle_ros.base.errors import did_you_mean
 from gazelle_ros.launch import nodes, params
 from gazelle_ros.launch.document import Element, parse_document, read_document
 from gazelle_ros.launch.errors import LaunchError, MissingArgumentError, SubstitutionError
+from gazelle_ros.launch.limits import MAX_FILES
 from gazelle_ros.launch.packages import Packages
 from gazelle_ros.launch.plan import (
     Argument,
@@ -127,7 +128,7 @@ class _Loader:
         self._packages = packages or Packages(environment)
         self._environment = environment
         self._default_machine = ""
-        self._depth = 0
+        self._depth = self._files = 0
         self._used: set[str] = set()
         self._handlers: dict[str, Callable[[Element, LaunchScope], None]] = {
             "arg": self._arg,
@@ -351,6 +352,9 @@ class _Loader:
         self._depth += 1
         if self._depth > _DEEPEST:
             raise element.error(f"files include each other more than {_DEEPEST} deep")
+        self._files += 1
+        if self._files > MAX_FILES:
+            raise element.error(f"this launch includes more than {MAX_FILES:,} files")
         try:
             document = read_document(file)
         except LaunchError as error:

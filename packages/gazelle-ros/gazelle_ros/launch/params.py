@@ -10,6 +10,7 @@ from gazelle_ros.base.bundled_packages import published, published_hint
 from gazelle_ros.base.errors import did_you_mean
 from gazelle_ros.launch.document import Element
 from gazelle_ros.launch.errors import LaunchError
+from gazelle_ros.launch.limits import read_bounded
 from gazelle_ros.launch.plan import (
     Action,
     LaunchParameter,
@@ -70,9 +71,9 @@ def _value(source: str, text: str, kind: str) -> Any:
     if source == "value":
         return convert(text.strip(), kind)
     if source == "textfile":
-        return convert(published(text).read_text(encoding="utf-8", errors="replace"), kind)
+        return convert(read_bounded(published(text)).decode("utf-8", "replace"), kind)
     if source == "binfile":
-        return published(text).read_bytes()
+        return read_bounded(published(text))
     return ParameterCommand(text, kind)
 
 
@@ -112,7 +113,9 @@ def _load(
     text = element.text
     if file:
         try:
-            text = published(file).read_text(encoding="utf-8", errors="replace")
+            text = read_bounded(published(file)).decode("utf-8", "replace")
+        except LaunchError as error:
+            raise element.error(error.message) from None
         except OSError as error:
             message = f"the file '{file}' cannot be read: {error.strerror}"
             raise element.error(message, published_hint(file)) from None

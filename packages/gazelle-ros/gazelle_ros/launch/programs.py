@@ -17,6 +17,7 @@ from gazelle_ros.base.child_processes import child_process
 from gazelle_ros.base.errors import Error
 from gazelle_ros.builtin import on_path, registry, terminal
 from gazelle_ros.launch.errors import LaunchError
+from gazelle_ros.launch.limits import communicate
 from gazelle_ros.launch.packages import Packages, is_python
 from gazelle_ros.launch.plan import LaunchParameter, NodePlan, ParameterCommand
 from gazelle_ros.launch.values import convert
@@ -229,7 +230,13 @@ def _output(text: str, packages: Packages, environment: Mapping[str, str] | None
     pipes = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
     try:
         with child_process(command_line(words, packages), env=env, **pipes) as process:
-            output, errors = process.communicate(timeout=_COMMAND_SECONDS)
+            try:
+                output, errors = communicate(process, _COMMAND_SECONDS)
+            except BaseException:
+                process.kill()
+                raise
+    except LaunchError as error:
+        raise LaunchError(f"the command '{text}': {error.message}") from None
     except OSError as error:
         raise LaunchError(f"the command '{text}' cannot be run: {error.strerror}") from None
     except subprocess.TimeoutExpired:

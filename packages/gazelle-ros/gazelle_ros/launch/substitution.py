@@ -15,6 +15,7 @@ from typing import Any
 from gazelle_ros import names
 from gazelle_ros.base.errors import did_you_mean
 from gazelle_ros.launch.errors import MissingArgumentError, SubstitutionError
+from gazelle_ros.launch.limits import check_text
 from gazelle_ros.launch.packages import Packages
 from gazelle_ros.launch.values import automatic
 
@@ -53,9 +54,9 @@ class Substitution:
         if "$(" not in text:
             return text
         if text.startswith(_EVAL) and text.endswith(")"):
-            return str(self.evaluate(text[len(_EVAL) : -1]))
+            return check_text(str(self.evaluate(text[len(_EVAL) : -1])))
         # An argument's value may hold $(find), as users give it on the command line.
-        return self._find_all(self._replace_all(text))
+        return self._find_all(check_text(self._replace_all(text)))
 
     def evaluate(self, expression: str) -> Any:
         """Return the value of the expression of ``$(eval EXPRESSION)``.

@@ -24,7 +24,8 @@ from gazelle_ros.messages.spec import (
 
 _FIELD_NAME = re.compile(r"[A-Za-z]\w*", re.ASCII)
 _FIELD_TYPE = re.compile(r"[A-Za-z]\w*(?:/[A-Za-z]\w*)?(?:\[(\d*)\])?", re.ASCII)
-_LONGEST_FIXED_ARRAY = 1 << 24
+MOST_ELEMENTS = 1 << 24
+"""Of arrays of fixed length in a message, which it has from the start."""
 
 
 def parse_message(full_name: str, text: str, *, file: str | None = None) -> MessageSpec:
@@ -133,7 +134,7 @@ def _parse_field(content: str, package: str) -> Field:
     match = _FIELD_TYPE.fullmatch(type_)
     if not match:
         raise ValueError(f"'{type_}' is not a legal type")
-    if match[1] and int(match[1]) > _LONGEST_FIXED_ARRAY:
+    if match[1] and int(match[1]) > MOST_ELEMENTS:
         raise ValueError(f"an array of {match[1]} elements is too long")
     if type_ in {"Header", "roslib/Header"}:
         return Field("std_msgs/Header", name)

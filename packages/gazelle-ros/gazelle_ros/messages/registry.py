@@ -22,7 +22,7 @@ from gazelle_ros.messages.library import (
     bundled,
     bundled_packages,
 )
-from gazelle_ros.messages.parse import parse_message, parse_service
+from gazelle_ros.messages.parse import MOST_ELEMENTS, parse_message, parse_service
 from gazelle_ros.messages.spec import BUILTIN, MessageSpec, ServiceSpec
 
 _HALVES = ("Request", "Response")
@@ -39,6 +39,7 @@ class Registry:
     def __init__(self, find: Callable[[str], Iterator[PackageDefinitions]]) -> None:
         self._find = find
         self._messages: dict[str, type[Message]] = {}
+        self._sizes: dict[str, int] = {}
         self._services: dict[str, type[ServiceDefinition]] = {}
         self._making: list[str] = []
         self._lock = threading.RLock()
@@ -123,6 +124,7 @@ class Registry:
                 known |= {each: inner, **_known_of(inner)}
         finally:
             self._making.pop()
+        self._sizes[spec.full_name] = self._size_of(spec)
         made = self._messages[spec.full_name] = message_class(
             spec,
             md5sum=message_md5(spec, self._md5_of),
@@ -131,6 +133,18 @@ class Registry:
             module=module,
         )
         return made
+
+    def _size_of(self, spec: MessageSpec) -> int:
+        """Return the number of elements that a new message has, arrays of fixed length in all."""
+        counts = ((each.length or 0) if each.is_array else 1 for each in spec.fields)
+        parts = (self._sizes.get(each.base, 1) for each in spec.fields)
+        size = sum(count * part for count, part in zip(counts, parts, strict=True))
+        if size > MOST_ELEMENTS:
+            raise InvalidDefinitionError(
+                f"{spec.full_name} has {size:,} elements in arrays of fixed length, more than the "
+                f"limit of {MOST_ELEMENTS:,}"
+            )
+        return size
 
     def _part_of(self, spec: MessageSpec, name: str) -> type[Message]:
         try:
