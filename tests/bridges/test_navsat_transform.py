@@ -221,5 +221,5 @@ def test_wrong_parameters_are_errors_and_unknown_ones_logged(caplog):
     assert "~/zero_altitud is an unknown parameter; did you mean 'zero_altitude'" in caplog.text
     with pytest.raises(Error, match="'datum' is latitude and longitude"):
         NavsatSettings.read({"wait_for_datum": True, "datum": "here"})
-    with pytest.raises(Error, match="frequency is above 0"):
+    with pytest.raises(Error, match="frequency must be above 0"):
         NavsatSettings.read({"frequency": -1.0})

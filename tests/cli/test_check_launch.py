@@ -166,7 +166,7 @@ def test_warnings_of_costmaps_are_findings(cli, tmp_path):
     code, out, _ = cli("check", str(file))
     assert code == 0
     assert "warning: " in out
-    assert "/m: global_costmap: parameters of before Hydro" in out
+    assert "/m: global_costmap: pre-Hydro parameters" in out
 
 
 WORLD = """<sdf version="1.6"><world name="default">

@@ -37,4 +37,4 @@ def test_a_file_is_shown_until_ctrl_c(tmp_path, source):
 def test_what_is_watched_is_in_this_process(cli):
     code, _, err = cli("train", "TurtleBot3Stage1", "--view", "--workers", 2)
     assert code == 2
-    assert "leave out --workers" in err
+    assert "--view cannot be used with --workers" in err

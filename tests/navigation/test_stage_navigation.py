@@ -140,7 +140,7 @@ def test_what_cannot_be_navigated_says_why(start):
     )
     with pytest.raises(SimulationError, match=r"'blind' has no laser[\s\S]*'ranger'"):
         sim.robots["blind"].navigation.go_to(0.0, 1.0)
-    with pytest.raises(SimulationError, match="'car' is steered like a car"):
+    with pytest.raises(SimulationError, match="'car' has Ackermann steering"):
         sim.robots["car"].navigation.go_to(0.0, 1.0)
     with pytest.raises(SimulationError, match="'crate' has no drive"):
         sim.robots["crate"].navigation.go_to(0.0, 1.0)

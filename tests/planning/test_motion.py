@@ -306,7 +306,7 @@ def test_names_of_planners():
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ({"velocity": 0.0}, r"scaling factor of velocity is within \(0, 1\]"),
+        ({"velocity": 0.0}, r"scaling factor of velocity must be within \(0, 1\]"),
         ({"acceleration": 1.5}, "scaling factor of acceleration"),
         ({"time": 0.0}, "above zero"),
         ({"timing": "soon"}, "no time parameterization"),

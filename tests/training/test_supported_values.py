@@ -84,7 +84,7 @@ def test_what_is_said_to_be_heeded_is_what_an_algorithm_reads(algo, shows):
         ("dqn", {"policy_delay": 2}, r"dqn does not support 'policy_delay'.*sac, td3, ddpg"),
         ("dqn", {"action_noise": 0.3}, r"dqn does not support 'action_noise'.*td3, ddpg"),
         ("td3", {"exploration_final": 0.1}, r"td3 does not support 'exploration_final'.*dqn"),
-        ("ddpg", {"imitation": 2.0}, "nobody to imitate; name a demonstrator"),
+        ("ddpg", {"imitation": 2.0}, "imitation needs a demonstrator; name a demonstrator"),
     ],
 )
 def test_settings_that_change_nothing_are_refused(algo, values, complaint):
