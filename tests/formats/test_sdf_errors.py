@@ -35,7 +35,7 @@ LINK = "<link name='l'/>"
             f"{LINK}\n<frame name='a' attached_to='b'/><frame name='b' attached_to='a'/>",
             5,
             "frame[@name='a']",
-            "circle",
+            "cycle",
         ),
     ],
 )

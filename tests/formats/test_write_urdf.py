@@ -227,7 +227,7 @@ def test_worlds_mimics_loops_and_static_robots_are_kept():
                 link("b"),
                 joints=(Joint("j", "fixed", "a", "b"), Joint("k", "fixed", "b", "a")),
             ),
-            "circle",
+            "cycle",
         ),
     ],
 )

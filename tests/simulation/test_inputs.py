@@ -71,7 +71,7 @@ WRONG = {
     "has 2 axes": lambda s: s.robots["arm"].set_configuration(["u"], [0.1]),
     "mean 'j'|are: j": lambda s: s.robots["arm"].set_configuration(["jj"], [0.1]),
     "lower limit .* would be 2, above": lambda s: joint(s).set_properties(lower=2.0),
-    "no int": lambda s: s.step(1.5),
+    "not an int": lambda s: s.step(1.5),
     "step -1 times": lambda s: s.step(-1),
     "run for nan s": lambda s: s.run(NAN),
     "run for -1.0 s": lambda s: s.run(-1.0, rate=1.0),

@@ -53,7 +53,7 @@ def test_films_with_too_many_pictures_or_none(room, tmp_path, call, options):
 
 def test_pictures_of_sources_are_limited_too():
     with pytest.raises(Error, match="more than the limit of 10,000,000 pictures"):
-        list(pictures_of(SimpleNamespace(look=lambda: BLACK), 1.0, 1e-320))
+        list(pictures_of(SimpleNamespace(render=lambda: BLACK), 1.0, 1e-320))
     assert picture_count(1.0, 0.04) == 25
     assert picture_count(1.0, 1e15) == 1
 

@@ -218,7 +218,7 @@ def test_margins_of_links_come_from_parameters():
         with pytest.warns(PlanningWarning, match="default_object_padding has no effect"):
             margins_of_parameters(node, robot)
         node.set_param(f"{space}/default_robot_padding", "much")
-        with pytest.raises(PlanningError, match="'default_robot_padding' is a number"):
+        with pytest.raises(PlanningError, match="'default_robot_padding' must be a number"):
             margins_of_parameters(node, robot)
 
 

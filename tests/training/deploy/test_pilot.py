@@ -273,7 +273,7 @@ def test_goals_are_read_from_a_file(tmp_path):
     ]
     for line in ("1", "a, b", "1, nan", "1, 2, map, 4", f"1, {'9' * 200_000}"):
         file.write_text(f"1, 2\n{line}\n")
-        with pytest.raises(FormatError, match=r"goals\.txt:2: .*no goal"):
+        with pytest.raises(FormatError, match=r"goals\.txt:2: .*is not a goal"):
             read_goals(file)
     with pytest.raises(FormatError, match="cannot read"):
         read_goals(tmp_path / "none.txt")
