@@ -266,6 +266,18 @@ while true; do sleep 0.05; done
     assert not any("did not end" in text for text in running.said)
 
 
+@pytest.mark.parametrize("pause", [0.0, 0.02, 0.05, 0.1, 0.2])
+def test_nodes_that_are_stopped_while_they_start_say_nothing(launch, script, capfd, pause):
+    script(
+        "talker.py", "#!/usr/bin/env python3\nimport rospy\nrospy.init_node('a')\nrospy.spin()\n"
+    )
+    running = launch(node("talker.py", "n", output="screen"))
+    time.sleep(pause)
+    running.close()
+    assert "Traceback" not in (said := capfd.readouterr().err)
+    assert "Fatal" not in said
+
+
 def test_a_master_is_started_where_there_is_none(launch):
     uri = f"http://127.0.0.1:{free_port()}/"
     running = launch('<param name="a" value="1"/>', master_uri=uri)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import math
 import os
 import signal
 import subprocess
@@ -22,6 +23,8 @@ _HAS_GROUPS = hasattr(os, "killpg")
 _POLL_S = 0.02
 _ORPHAN_S = 0.5
 """Time that processes started by a node may outlive it."""
+_STARTING_S = 1.0
+"""Time in which Python is taken to be starting."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,6 +72,7 @@ class NodeProcess:
         self.how = start
         self.ended_at: float | None = None
         self.spawned = 0
+        self._started_at = -math.inf
         self._process: subprocess.Popen[bytes] | None = None
 
     @property
@@ -113,6 +117,7 @@ class NodeProcess:
             if log is not None:
                 log.close()
         self.ended_at = None
+        self._started_at = time.monotonic()
         self.spawned += 1
 
     def poll(self) -> int | None:
@@ -138,6 +143,12 @@ class NodeProcess:
             return
         with contextlib.suppress(ProcessLookupError, PermissionError):
             os.killpg(self._process.pid, number)
+
+    def interrupt(self) -> None:
+        """Send SIGINT; SIGTERM while Python starts, which reports SIGINT at length then."""
+        starting = time.monotonic() < self._started_at + _STARTING_S
+        python = self.how.arguments[0] == sys.executable
+        self.signal(signal.SIGTERM if python and starting else signal.SIGINT)
 
     def _end_group(self) -> None:
         """Stop the processes that the process left."""
@@ -194,7 +205,10 @@ def _send(processes: list[NodeProcess], number: int, seconds: float) -> list[Nod
     """Send a signal to those that run, and wait for their end; returns its receivers."""
     alive = [each for each in processes if each.running]
     for each in alive:
-        each.signal(number)
+        if number == signal.SIGINT:
+            each.interrupt()
+        else:
+            each.signal(number)
     deadline = time.monotonic() + seconds
     while any(each.running for each in alive) and time.monotonic() < deadline:
         time.sleep(_POLL_S)
