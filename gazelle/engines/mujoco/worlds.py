@@ -171,7 +171,7 @@ class RunningWorlds:
 
     @property
     def latest(self) -> CompilerInput:
-        """Input of the model that runs, or will from the next step on."""
+        """Compiler input of the model that runs, or of the one that runs from the next step on."""
         return self.pending or self.recipe
 
     @property

@@ -145,7 +145,7 @@ class DisplayList:
             self._forget(name)
             self._switches.pop(name).remove()
         for name in described:
-            self._meet(name)
+            self._read_description(name)
         for topic, display in self.topics.items():
             publishers = others.get(topic, 0)
             display.report(types.get(topic, "") if publishers else "", publishers)
@@ -199,8 +199,8 @@ class DisplayList:
         if name in self.robots:
             self.robots.pop(name).remove()
 
-    def _meet(self, name: str) -> None:
-        """Read a robot_description, if it is new or another one."""
+    def _read_description(self, name: str) -> None:
+        """Read the robot of a robot_description parameter, if it is new or has changed."""
         node = self._context.node
         text = str(node.get_param(name, ""))
         known = self.robots.get(name)

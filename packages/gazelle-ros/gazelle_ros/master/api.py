@@ -111,10 +111,7 @@ class MasterApi:
         return triple
 
     def register_subscriber(self, caller: str, topic: str, kind: str, uri: str) -> Triple:
-        """Register `caller` as a subscriber of `topic`; returns publisher URIs.
-
-        Returns publisher URIs.
-        """
+        """Register `caller` as a subscriber of `topic`; returns publisher URIs."""
         entry = self._enter(caller, uri)
         self.registrations.subscribers.add(topic, entry)
         self.registrations.note_subscriber_type(topic, kind)

@@ -24,7 +24,7 @@ class BridgeSettings:
     text, as on a command line; no address stands for all.
 
     Raises:
-        RosError: A value is none, or of another type.
+        RosError: A value is missing or of another type.
     """
 
     port: int = 9090
@@ -94,7 +94,7 @@ def read_settings(node: Node, words: Sequence[str] = ()) -> BridgeSettings:
     """Read the settings of a node: its private parameters, and ``--NAME VALUE`` of its arguments.
 
     Raises:
-        RosError: A value is none, or asks for what is not supported.
+        RosError: A value is missing or not supported.
     """
     given = {
         each.name: node.get_param(f"~{each.name}")

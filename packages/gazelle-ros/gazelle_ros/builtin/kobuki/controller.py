@@ -76,7 +76,13 @@ class KobukiController(ABC):
 
     @abstractmethod
     def on_event(self, sensors: set[int], before: frozenset[int], *, active: bool) -> None:
-        """Handle an event of which the sensors are up to date."""
+        """Handle an event, after `sensors` was updated.
+
+        Args:
+            sensors: Sensors of its kind that are active.
+            before: Those that were active before it.
+            active: Whether the sensor of the event became active.
+        """
 
     def _take_bumper(self, message: kobuki_msgs.msg.BumperEvent) -> None:
         self.take(self.bumpers, message.bumper, active=message.state == _BUMPER.PRESSED)

@@ -237,7 +237,7 @@ class StateMachine(Container):
         return [str(self._initial)]
 
     def get_internal_edges(self) -> list[Edge]:
-        """Return what leads from a state to another, or out of the machine."""
+        """Return all transitions as (outcome, state, next state or outcome of the machine)."""
         edges = (
             (label, pair) for label, each in self._transitions.items() for pair in each.items()
         )
