@@ -83,7 +83,7 @@ class PluginSystem(Generic[P]):
         return None
 
     def sync(self) -> None:
-        """Take over what ``in_step`` computed in steps."""
+        """Copy the results of ``in_step`` into the plugin."""
 
     def measure(self, plugins: Sequence[P]) -> Sequence[Any]:
         """Return what ``publish`` gets for some rows, measured at once after ``update``.

@@ -88,7 +88,7 @@ class ScheduledPlugin:
         self._guarded(lambda: system.publish(self.plugin, measured), "when publishing")
 
     def measure(self, system: PluginSystem[Any]) -> None:
-        """Measure for it alone, and publish that."""
+        """Measure for one system, and publish the result."""
         self._guarded(
             lambda: system.publish(self.plugin, system.measure([self.plugin])[0]), "when publishing"
         )

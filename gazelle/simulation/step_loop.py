@@ -168,7 +168,7 @@ class StepLoop:
             steps = self._give_up(error, steps)
         else:
             clock.advance(steps)
-        self._look_back()
+        self._finish_steps()
         return steps
 
     def _update_plugins(self) -> Sequence[Scheduled]:
@@ -214,7 +214,7 @@ class StepLoop:
         clock, soonest = self._simulation.clock, self.in_step.soonest_ns
         return clock.steps_to(int(soonest)) if math.isfinite(soonest) else sys.maxsize
 
-    def _look_back(self) -> None:
+    def _finish_steps(self) -> None:
         """Finish steps: move followers, measure, call listeners, check for falling models."""
         now_ns = self._simulation.clock.now_ns
         for follower in tuple(self.followers):

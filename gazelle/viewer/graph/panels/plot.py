@@ -195,7 +195,7 @@ class PlotPanel(GraphPanel):
 
 
 def topic_of(text: str, topics: Sequence[str]) -> str:
-    """Return the topic that a field is of, the longest match.
+    """Return the topic at the beginning of a path such as ``/odom/twist/linear/x``, the longest match.
 
     Raises:
         Error: There is none.
