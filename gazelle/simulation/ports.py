@@ -82,6 +82,13 @@ class TwistInput(StatePart):
             revision[:] = self._revision
             self._revision = revision
 
+    def keep_in(
+        self, linear: Floats, angular: Floats, revision: NDArray[np.int64] | None = None
+    ) -> None:
+        """Store commands in other arrays; deprecated, use `store_in`."""
+        warnings.warn(DeprecationWarning("TwistInput.keep_in is called store_in now"), stacklevel=2)
+        self.store_in(linear, angular, revision)
+
     @between_steps
     def send(
         self,

@@ -11,7 +11,7 @@ from gazelle.description import Box, Collision, Inertia, Inertial, Link, Model, 
 from gazelle.engines.mujoco.compiler import constraint_memory
 from gazelle.errors import EngineWarning
 
-SHAPES, BODIES = 30, 8
+SHAPES, BODIES = 20, 10
 MASS, TIME = 2.0, 0.05
 
 
