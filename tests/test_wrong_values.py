@@ -22,7 +22,7 @@ OWN = {
     "InitialPoses": {"apply", "forget", "restore"},
     "Robot": {"add_manager", "back_to", "bind", "mark"},
     "SensorUnit": {"join", "leave", "reading", "reseed", "reset", "restore", "update"},
-    "TwistInput": {"store_in"},
+    "TwistInput": {"keep_in", "store_in"},
     "WorldParameters": {"reseed", "restore"},
 }
 ENDING = {"close", "pause", "unpause"}
@@ -199,7 +199,7 @@ MEASURED = {
 
 ``PhysicsSettings`` is what Gazebo answers; a scan with NaN favours no pose.
 """
-COMPUTED = {"PlacedModel", "Pose", "Pose.exactly", "TreeJoint", "TreeJoint.placed"}
+COMPUTED = {"Model.walk", "PlacedModel", "Pose", "Pose.exactly", "TreeJoint", "TreeJoint.placed"}
 """Poses, which also come from worlds that diverged, where NaN is the answer; descriptions take none."""
 REFUSED_BY_PORT = {"GoalPose"}
 """Values that messages hold too; the port they are sent to refuses what is not finite."""

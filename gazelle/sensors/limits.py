@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from gazelle.argument_checks import world_indices
 from gazelle.array_types import Worlds
 from gazelle.description import Scan, Sensor
 from gazelle.engines.limits import MAX_RAYS, MAX_VALUES
@@ -39,12 +40,12 @@ def check_sensor(sensor: Sensor, name: str, nworld: int) -> None:
 
 
 def check_worlds(worlds: Worlds | None, nworld: int) -> None:
-    """Check that no more worlds are measured in than there are.
+    """Check the worlds that a sensor measures in.
 
     Raises:
-        SimulationError: They are more.
+        SimulationError: They are more than there are, or one is not there.
     """
-    if worlds is not None and len(worlds) > nworld:
+    if worlds is not None and len(world_indices(worlds, nworld, SimulationError)) > nworld:
         raise SimulationError(f"a sensor measures in {nworld} worlds, not in {len(worlds)}")
 
 

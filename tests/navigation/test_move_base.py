@@ -7,7 +7,13 @@ import pytest
 
 from gazelle.errors import Error
 from gazelle.navigation.costmap import Costmap, footprint_of
-from gazelle.navigation.move_base import GoalOutcome, MoveBase, MoveBaseSettings, RobotState
+from gazelle.navigation.move_base import (
+    GoalOutcome,
+    MoveBase,
+    MoveBaseSettings,
+    RobotState,
+    navigation_stack,
+)
 from gazelle.navigation.move_base.recovery import RecoveryBehavior, RotateRecovery, make_recovery
 from gazelle.navigation.planners.plugins import STOP
 
@@ -149,3 +155,9 @@ def test_rotating_reads_the_limits_of_trajectory_planner(own, base, rate):
         heading = math.remainder(heading + 0.05 * velocity[2], 2 * math.pi)
     assert velocity is None
     assert abs(heading) < 0.15
+
+
+@pytest.mark.parametrize("rate", [0.0, -5.0])
+def test_frequencies_of_planners_are_positive(rate):
+    with pytest.raises(Error, match="TrajectoryPlannerROS/controller_frequency must be above 0"):
+        navigation_stack({"TrajectoryPlannerROS": {"controller_frequency": rate}})

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from gazelle import formats
 from gazelle.description import Lidar, Noise, Pose, Scan
 from gazelle.engines import make_engine
+from gazelle.errors import SimulationError
 from gazelle.sensors import LidarModel
 from gazelle.sensors.lidar import angles_of
 
@@ -53,6 +54,16 @@ def test_the_housing_around_the_scanner_is_not_seen():
     engine = room(scenes.box(size=(0.1, 0.1, 0.6), pose=Pose(z=0.3)))
     lidar = Lidar(Scan(4, max_angle=4.71), range_min=0.12, range_max=5.0)
     assert model_of(engine, lidar, Pose()).measure().min() > 1.8
+
+
+@pytest.mark.parametrize("worlds", [[1], [-1], [10**9], [0, 0], [np.nan]])
+@pytest.mark.parametrize("kind", ["mujoco", "planar"])
+def test_worlds_that_are_not_there_are_refused(kind, worlds):
+    engine = make_engine(kind, scenes.world(scenes.ground(), scenes.box(pose=Pose(z=0.1))), 1)
+    lidar = Lidar(Scan(4, max_angle=4.71), range_min=0.12, range_max=5.0)
+    model = LidarModel(lidar, engine, "box::link", Pose(z=0.3), 0, "lidar")
+    with pytest.raises(SimulationError, match=r"worlds must be|a sensor measures in"):
+        model.measure(np.array(worlds))
 
 
 @pytest.mark.parametrize("step", [0.0, 0.001, 0.015, 0.05, 1.0])

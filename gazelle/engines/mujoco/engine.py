@@ -194,10 +194,12 @@ class MujocoEngine:
             system.act(self._run.state.qfrc_applied, self._run.state.userdata)
             self._run.stale = True
 
+    @checked(EngineError, after=True)
     def range_kind(self, rays: RangeRays) -> Hashable | None:
         """Return a key that is equal for rays that ``range_table`` can cast together."""
         return len(rays.origins)
 
+    @checked(EngineError, after=True)
     def range_table(self, rays: Sequence[RangeRays]) -> RangeTable:
         """Return a table of range finders of one kind."""
         run = self._run

@@ -184,7 +184,7 @@ class MujocoRanges:
         if worlds is None:
             self._update(self._cast)
             return whole
-        for world in worlds.tolist():
+        for world in np.arange(len(whole))[worlds].tolist():  # none that is not there
             self._cast.update_from_python(world * rows, (world + 1) * rows, 0)
         return whole[worlds]
 

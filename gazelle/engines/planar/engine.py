@@ -320,6 +320,7 @@ class PlanarEngine:
         self._run.fleet.close()
 
 
+@checked(EngineError, after=True)
 def _at_pace(world: World) -> World:
     """Return the world with its step for bodies without dynamics, at the same real-time factor."""
     profile = world.profile

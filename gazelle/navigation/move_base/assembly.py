@@ -10,7 +10,7 @@ from gazelle.navigation.move_base.recovery import make_recovery
 from gazelle.navigation.move_base.settings import MoveBaseSettings, recoveries_of
 from gazelle.navigation.move_base.state_machine import MoveBase
 from gazelle.navigation.planners.plugins import global_planner, local_planner
-from gazelle_ros.base.parameter_values import Values, value_of
+from gazelle_ros.base.parameter_values import Values, positive, value_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,6 +52,7 @@ def navigation_stack(values: Values) -> NavigationStack:
     own = section(values, name)
     # The planner's own frequency counts where it is given, as in the original.
     rate = value_of(own, "controller_frequency", settings.controller_frequency)
+    rate = positive(f"{name}/controller_frequency", rate)
     controller = local_planner(kind)(name, local.costmap, own, 1.0 / rate)
     recoveries = [
         make_recovery(
