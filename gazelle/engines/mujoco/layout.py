@@ -236,7 +236,7 @@ def layout_of(compiled: Compiled, attachments: Iterable[str] = ()) -> MujocoLayo
 
 def _link_slot(model: mujoco.MjModel, body: TreeLink, above: LinkSlot | None) -> LinkSlot:
     index = 0 if body.root == "static" else model.body(body.name).id
-    free = _slot(model, model.joint(body.name).id) if body.root == "free" else None
+    free = _slot(model, int(model.body_jntadr[index])) if body.root == "free" else None
     mocap = int(model.body_mocapid[index]) if body.root == "kinematic" else None
     carrier = body.name if above is None else above.carrier
     return LinkSlot(index, body.root, free, mocap, body.pose, carrier)

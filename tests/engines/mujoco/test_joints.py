@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import scenes
 
+from gazelle import formats
 from gazelle.description import (
     Inertia,
     Inertial,
@@ -324,3 +325,20 @@ def test_a_spring_swings_at_its_frequency():
     engine.step(round(half_period / 0.001))
     assert engine.joints["m::j"].position()[0, 0] == pytest.approx(0.6, rel=0.02)
     assert np.isfinite(engine.snapshot()).all()
+
+
+@pytest.mark.parametrize("kind", ["revolute", "prismatic", "ball", "universal"])
+def test_a_joint_may_have_the_name_of_the_root_link(kind):
+    axes = {"ball": ""}.get(kind, "<axis><xyz>0 0 1</xyz></axis><axis2><xyz>0 1 0</xyz></axis2>")
+    links = "".join(
+        f"<link name='{name}'><inertial><mass>1</mass></inertial></link>" for name in "abc"
+    )
+    world = formats.load_string(
+        f"<sdf version='1.6'><world name='w'><model name='m'>{links}<joint name='a' type='{kind}'>"
+        f"<parent>a</parent><child>b</child>{axes}</joint></model></world></sdf>"
+    )
+    engine = make_engine("mujoco", world)
+    engine.step(3)
+    found = engine.links[("m::a", "m::c")].placement().position[0, :, 2]
+    np.testing.assert_allclose(found, found[0], atol=1e-12)
+    assert -1e-4 < found[0] < 0.0

@@ -316,7 +316,9 @@ class _SpecBuilder:
         if body.root == "kinematic":
             handle.mocap = True
         if body.root == "free":
-            handle.add_freejoint(name=body.name, align=mujoco.mjtAlignFree.mjALIGNFREE_FALSE)
+            # A joint may have the name of a link.
+            name = f"{body.name}#free"
+            handle.add_freejoint(name=name, align=mujoco.mjtAlignFree.mjALIGNFREE_FALSE)
         if body.joint is not None:
             add_joint(handle, body.joint_name, body.joint, self._time_step)
         if body.root != "kinematic":
