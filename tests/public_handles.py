@@ -63,7 +63,7 @@ CHANGING = {
         *("join", "leave", "reseed", "reset", "restore", "limit_rate", "subscribe", "system"),
         "update",
     },
-    TwistInput: {"bind", "clear", "store_in", "send"},
+    TwistInput: {"bind", "clear", "keep_in", "store_in", "send"},
     Input: {"bind", "clear", "send"},
     Output: {"bind", "forget", "publish", "publish_computed", "subscribe"},
     Service: {"bind", "call"},
