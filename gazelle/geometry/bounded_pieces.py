@@ -50,7 +50,7 @@ def pieces_within(
     start, pairs = _clouds(surface, number, solid, whole, bound)
     if len(start) <= 1:
         return hulls_of(start), bound
-    clouds, air = start, AirBeside(surface, solid, skin)
+    air = AirBeside(surface, solid, skin)
     for distance, most in _distances(bound):
         if len(start) > _MANY_POLYGONS and distance < _WITHIN * bound:
             continue  # it would take long, and hardly ever be enough

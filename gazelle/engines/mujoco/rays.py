@@ -8,6 +8,7 @@ from copy import copy
 import mujoco
 import numpy as np
 
+from gazelle.argument_checks import world_indices
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Pose
 from gazelle.engines.motion import Hits, Placement
@@ -17,6 +18,7 @@ from gazelle.engines.mujoco.library import address_of, address_of_struct
 from gazelle.engines.mujoco.ray_system import RaySystem
 from gazelle.engines.mujoco.worlds import RunningWorlds
 from gazelle.engines.range_rays import RangeRays
+from gazelle.errors import EngineError
 from gazelle.native.ray_frames import FrameRays
 from gazelle.native.system import System
 
@@ -184,7 +186,7 @@ class MujocoRanges:
         if worlds is None:
             self._update(self._cast)
             return whole
-        for world in np.arange(len(whole))[worlds].tolist():  # none that is not there
+        for world in world_indices(worlds, len(whole), EngineError).tolist():
             self._cast.update_from_python(world * rows, (world + 1) * rows, 0)
         return whole[worlds]
 
