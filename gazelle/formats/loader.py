@@ -329,7 +329,8 @@ def read_root(root: Parameters, reading: Reading) -> World:
             source=root.source,
             hint="'gazelle launch FILE' runs it",
         )
-    raise FormatError(
+    kind = urdf.NoLinksError if xacro.is_xacro(root) else FormatError  # macros under another name
+    raise kind(
         f"expected <sdf> or <robot>, found <{root.tag}>",
         source=root.source,
         hint="readable are SDF, URDF, xacro and Stage files, maps (.yaml), and folders with a "

@@ -139,20 +139,28 @@ def test_check_names_file_and_line_and_fails(cli, tmp_path):
     assert out.endswith("bad.urdf: 1 error, 0 warnings\n")
 
 
-@pytest.mark.parametrize("attributes", ['name="arm"', ""])
-def test_check_warns_of_a_xacro_file_without_links(cli, tmp_path, attributes):
-    text = f"""<robot {attributes} xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:macro name="finger" params="at"><link name="${{at}}"/></xacro:macro></robot>"""
+@pytest.mark.parametrize(
+    ("root", "fault"),
+    [
+        ('robot name="arm"', "a <robot> needs a <link>"),
+        ("robot", "a <robot> needs a <link>"),
+        ("root", "expected <sdf> or <robot>, found <root>"),
+    ],
+)
+def test_check_warns_of_a_xacro_file_without_links(cli, tmp_path, root, fault):
+    text = f"""<{root} xmlns:xacro="http://www.ros.org/wiki/xacro">
+      <xacro:macro name="finger" params="at"><link name="${{at}}"/></xacro:macro>
+      </{root.split()[0]}>"""
     file = tmp_path / "fingers.urdf.xacro"
     file.write_text(text)
     code, out, _ = cli("check", str(file))
     assert code == 0
-    assert f"warning: {file}:1: a <robot> needs a <link> [only-macros]" in out
+    assert f"warning: {file}:1: {fault} [only-macros]" in out
     whole = tmp_path / "fingers.urdf"
     whole.write_text(text)
     code, out, _ = cli("check", str(whole))
     assert code == 1
-    assert f"error: {whole}:1: a <robot> needs a <link>" in out
+    assert f"error: {whole}:1: {fault}" in out
 
 
 def test_check_fails_for_a_plugin_that_fails(cli, tmp_path):
