@@ -30,6 +30,7 @@ from gazelle.errors import FormatError, SimulationWarning
 from gazelle.training import portable
 from gazelle.training.export import export_actor
 from gazelle.training.learners import Learner
+from gazelle.training.state_arrays import saved_array
 
 _COUNTERS = (
     "num_timesteps",
@@ -90,10 +91,11 @@ def read_checkpoint(folder: Path, learner: Learner) -> dict[str, Any]:
     _set_torch_state(learner, folder / "learner.pt")
     with usable(folder):
         for name, value in state["counters"].items():
-            setattr(learner, name, value)
-        if "recurrent" in state:
-            kind = type(learner._last_lstm_states)  # noqa: SLF001
-            learner._last_lstm_states = kind(*map(_tensors, state["recurrent"]))  # noqa: SLF001
+            setattr(learner, name, type(getattr(learner, name))(value))
+        if "recurrent" in state and state["environment"] is not None:  # else episodes start again
+            present = learner._last_lstm_states  # noqa: SLF001
+            parts = map(_tensors, state["recurrent"], present)
+            learner._last_lstm_states = type(present)(*parts)  # noqa: SLF001
         if "ahead" in state:
             learner.resume_update(state["ahead"])
         if "memory" in state:
@@ -124,8 +126,13 @@ def _plain(part: tuple[torch.Tensor, ...]) -> list[Any]:
     return [tensor.numpy() for tensor in part]
 
 
-def _tensors(part: list[Any]) -> tuple[torch.Tensor, ...]:
-    return tuple(torch.as_tensor(array) for array in part)
+def _tensors(part: list[Any], present: tuple[torch.Tensor, ...]) -> tuple[torch.Tensor, ...]:
+    """Return saved tensors in place of the present ones."""
+    saved = dict(enumerate(part))
+    return tuple(
+        torch.as_tensor(saved_array(saved, place, tensor.numpy()))
+        for place, tensor in enumerate(present)
+    )
 
 
 def _restore_environment(learner: Learner, state: dict[str, Any]) -> None:

@@ -17,6 +17,7 @@ import numpy.typing as npt
 from gazelle.argument_checks import checked
 from gazelle.array_types import Bools, Floats
 from gazelle.errors import TaskError
+from gazelle.training.state_arrays import saved_array
 
 
 @checked(TaskError)
@@ -106,8 +107,9 @@ class GoalRewards:
 
     def set_state(self, state: Mapping[str, Any]) -> None:
         """Restore a state that `get_state` returned; earlier ones have no points."""
-        self.distance = np.array(state["distance"], dtype=np.float64)
-        self.waypoints = np.array(state.get("waypoints", self.waypoints), dtype=np.float64)
+        self.distance = saved_array(state, "distance", self.distance)
+        whole = {"waypoints": self.waypoints, **state}
+        self.waypoints = saved_array(whole, "waypoints", self.waypoints)
 
 
 def _merged(

@@ -28,6 +28,7 @@ from gazelle.errors import TaskError
 from gazelle.training.episodes import OUTCOMES, Episodes, begins_early
 from gazelle.training.goal_reward import GoalReward, GoalRewards
 from gazelle.training.picture_layers import observation_dtype
+from gazelle.training.state_arrays import saved_array
 from gazelle.training.tasks import step_limit
 
 SCENARIO = "scenario"
@@ -224,16 +225,22 @@ class Stepper:
         }
 
     def set_state(self, state: dict[str, Any]) -> None:
-        """Restore a state that `get_state` returned."""
-        self.obs = np.array(state["obs"], dtype=self._dtype)
-        self._resetting = np.array(state["resetting"], dtype=np.bool_)
-        self._returns = np.array(state["returns"], dtype=np.float64)
-        self._lengths = np.array(state["lengths"], dtype=np.int64)
-        self._goals = np.array(state["goals"], dtype=np.int64)
-        # Earlier states knew nothing of them.
-        self._late_goals = np.array(state.get("late_goals", 0 * self._goals), dtype=np.int64)
-        self._goal_at = np.array(state["goal_at"], dtype=np.int64)
-        self._there = np.array(state["there"], dtype=np.bool_)
+        """Restore a state that `get_state` returned.
+
+        Raises:
+            ValueError: An array has another shape than here.
+        """
+        shape = (self.num_envs, *(self.observation_space.shape or ()))
+        self.obs = saved_array(state, "obs", np.empty(shape, self._dtype))
+        self._resetting = saved_array(state, "resetting", self._resetting)
+        self._returns = saved_array(state, "returns", self._returns)
+        self._lengths = saved_array(state, "lengths", self._lengths)
+        self._goals = saved_array(state, "goals", self._goals)
+        # Earlier states have none of these.
+        late = {"late_goals": 0 * self._goals} | state
+        self._late_goals = saved_array(late, "late_goals", self._late_goals)
+        self._goal_at = saved_array(state, "goal_at", self._goal_at)
+        self._there = saved_array(state, "there", self._there)
         if self._teacher is not None:
             self._teacher.set_state(state)
 

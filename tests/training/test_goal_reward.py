@@ -147,6 +147,17 @@ def test_a_saved_stepper_goes_on_alike():
     np.testing.assert_array_equal(first, [again.step(actions).taught for actions in moves(4, 9)])
 
 
+@pytest.mark.parametrize("count", [0, 1, 3, 5000])
+def test_a_state_of_another_number_of_copies_is_refused(count):
+    stepper = Stepper(Measured(4), goal_reward=PAY)
+    stepper.reset(seed=0)
+    state = stepper.get_state()
+    for name, array in state.items():
+        other = np.zeros((count, *array.shape[1:]), array.dtype)
+        with pytest.raises(ValueError, match=f"'{name}' has the shape"):
+            stepper.set_state(state | {name: other})
+
+
 def test_reports_keep_the_tasks_reward_and_learners_get_the_other():
     paid, told = [], []
     for pay in (PAY, None):
