@@ -92,7 +92,7 @@ def read_checkpoint(folder: Path, learner: Learner) -> dict[str, Any]:
     with usable(folder):
         for name, value in state["counters"].items():
             setattr(learner, name, type(getattr(learner, name))(value))
-        if "recurrent" in state and state["environment"] is not None:  # else episodes start again
+        if "recurrent" in state:
             present = learner._last_lstm_states  # noqa: SLF001
             parts = map(_tensors, state["recurrent"], present)
             learner._last_lstm_states = type(present)(*parts)  # noqa: SLF001

@@ -101,19 +101,20 @@ def test_recurrent_ppo_is_evaluated_as_the_library_predicts(tmp_path, continuous
     recipe = library("recurrent_ppo", {"n_steps": 16, "batch_size": 32, "n_epochs": 1})
     run = train("test/Corridor-v0", recipe=recipe, out=tmp_path, continuous=continuous).run
     assert evaluate(run.folder, episodes=10).episodes == 10
-    env = VectorEnvAdapter(make_task(run.config.task, 5, **run.config.options))
+    copies = run.config.recipe.num_envs
+    env = VectorEnvAdapter(make_task(run.config.task, copies, **run.config.options))
     learner = build_learner(run.config.recipe, env, 0)
     read_checkpoint(run.newest_checkpoint(), learner)
     actor = load_actor(run.policy_file())
     rng = np.random.default_rng(0)
-    memory, state, starts = actor.begin(5), None, np.ones(5, bool)
+    memory, state, starts = actor.begin(copies), None, np.ones(copies, bool)
     for _ in range(ROUNDS):
-        obs = rng.uniform(-1.2, 1.2, (5, 3)).astype(np.float32)
+        obs = rng.uniform(-1.2, 1.2, (copies, 3)).astype(np.float32)
         memory.forget(starts)
         expected, state = learner.predict(obs, state, starts, deterministic=True)
         found = actor.act(obs, memory=memory)
         np.testing.assert_allclose(found, expected, rtol=0, atol=2e-6)
-        starts = rng.random(5) < 0.2
+        starts = rng.random(copies) < 0.2
 
 
 @pytest.mark.long
