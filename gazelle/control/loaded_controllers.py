@@ -39,6 +39,7 @@ class LoadedControllers(dict[str, LoadedController]):
             period: Since the last update [s].
             restart: Worlds in which they start again first.
         """
+        _check_period(period)
         time = now_ns * 1e-9
         for entry in self.running:
             controller = entry.controller
@@ -80,6 +81,7 @@ class LoadedControllers(dict[str, LoadedController]):
 
     def catch_up(self, now_ns: int, updates: int, period: float) -> None:
         """Update the state after native updates; see ``ControllerManager.catch_up``."""
+        _check_period(period)
         for entry in self.values():
             if entry.controller.running:
                 entry.controller.now_ns = now_ns
@@ -115,3 +117,13 @@ class LoadedControllers(dict[str, LoadedController]):
                 if running or entry.state == "running":
                     entry.state = "running" if running else "stopped"
                 entry.controller.restore(own)
+
+
+def _check_period(period: float) -> None:
+    """Check the time between two updates: integrals of controllers would be NaN for ever.
+
+    Raises:
+        ControlError: It is not a finite number of 0 or more.
+    """
+    if not 0.0 <= period < math.inf:
+        raise ControlError(f"a period must be a finite number of 0 s or more, not {period!r:.60}")

@@ -130,7 +130,7 @@ class Model:
         Args:
             prefix: Scope put before the names, such as ``world_name::``.
             pose: Pose of this model in the frame that the results shall be in;
-                the model's own ``pose`` when None.
+                the model's own ``pose`` when None; with NaN, so are all.
         """
         placed = self.pose if pose is None else pose
         scope = f"{prefix}{self.name}"
@@ -145,7 +145,7 @@ class PlacedModel:
 
     Attributes:
         scope: Its scoped name, such as ``robot::arm``.
-        pose: Its pose in the frame that ``walk`` was asked for.
+        pose: Its pose in the frame that ``walk`` was asked for; may hold NaN as that.
         model: The model.
     """
 

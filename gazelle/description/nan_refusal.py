@@ -42,7 +42,7 @@ def refuses_nan(kind: type[T]) -> type[T]:
 def _has_nan(value: Any) -> bool:
     if isinstance(value, float):
         return value != value  # noqa: PLR0124  # so is NaN, and no function is called
-    if isinstance(value, tuple):
+    if isinstance(value, tuple | list):
         return any(map(_has_nan, value))
     if isinstance(value, Pose):
         return _has_nan(value.position) or _has_nan(value.quaternion)

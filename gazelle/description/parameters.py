@@ -96,7 +96,7 @@ class Parameters(HoldsMappings):
             ) from None
 
     def numbers(self, tag: str, default: tuple[float, ...]) -> tuple[float, ...]:
-        """Return numbers separated by spaces in a child; the default if absent or empty.
+        """Return numbers separated by spaces in a child; the default, NaN too, if absent or empty.
 
         Raises:
             FormatError: They are not numbers, or not as many as in the default.

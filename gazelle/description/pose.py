@@ -26,7 +26,7 @@ class Pose:
 
     ``a * b`` composes: a pose b given in the child frame of a, in the parent frame of a.
     Roll, pitch and yaw turn about the fixed x, y, z axes in that order, as SDF, URDF and
-    tf do: R = Rz(yaw) Ry(pitch) Rx(roll).
+    tf do: R = Rz(yaw) Ry(pitch) Rx(roll). The pose of a world that diverged holds NaN.
 
     Args:
         x: Position [m].
@@ -69,6 +69,7 @@ class Pose:
 
         One that has length one but for rounding keeps its numbers, so that a pose that is
         written and read stays the same. One of length zero becomes the identity, as in Gazebo.
+        NaN stays NaN.
 
         Raises:
             FormatError: They are not three and four numbers.
@@ -94,7 +95,7 @@ class Pose:
 
     @classmethod
     def exactly(cls, position: Vector3, quaternion: Quaternion) -> Pose:
-        """Return a pose of the very numbers of another's ``position`` and ``quaternion``."""
+        """Return a pose of the very numbers, NaN too, of another's ``position`` and ``quaternion``."""
         try:
             pose = cls(*position)
         except TypeError as error:
@@ -176,12 +177,12 @@ class Pose:
         return Pose._normalized((-px, -py, -pz), conjugate)
 
     def apply(self, point: Sequence[float]) -> Vector3:
-        """Return a point [m] of the child frame in the parent frame."""
+        """Return a point [m] of the child frame in the parent frame; of NaN NaN."""
         px, py, pz = self.rotate(point)
         return (self.x + px, self.y + py, self.z + pz)
 
     def rotate(self, vector: Sequence[float]) -> Vector3:
-        """Return a direction of the child frame in the parent frame."""
+        """Return a direction of the child frame in the parent frame; of NaN NaN."""
         try:
             return rotate(self._quaternion, (vector[0], vector[1], vector[2]))
         except _FAILURES as error:
@@ -196,7 +197,7 @@ class Pose:
         return matrix
 
     def is_close(self, other: Pose, *, position: float = 1e-9, angle: float = 1e-9) -> bool:
-        """Return whether two poses agree within a distance [m] and an angle [rad]."""
+        """Return whether two poses agree within a distance [m] and an angle [rad]; never with NaN."""
         delta = self.inverse() * other
         sine = math.sqrt(sum(q * q for q in delta.quaternion[:3]))
         turned = 2.0 * math.atan2(sine, abs(delta.quaternion[3]))

@@ -52,8 +52,9 @@ class LiveMap:
         """
         ranges = scan.ranges.copy()
         # What is too near is as good as nothing.
-        ranges[ranges < scan.range_min] = scan.range_max
-        changed = self._slam.update(time, odom, ranges, scan.angles, scan.range_max, scan.laser)
+        most = max(0.0, scan.range_max)  # of NaN 0
+        ranges[ranges < scan.range_min] = most
+        changed = self._slam.update(time, odom, ranges, scan.angles, most, scan.laser)
         if not changed or time < self._due - 1e-6:
             return None
         self._due = time + self._interval

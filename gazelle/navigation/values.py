@@ -9,7 +9,7 @@ from gazelle.array_types import Floats
 
 @dataclass(frozen=True, slots=True)
 class GoalPose:
-    """Goal pose.
+    """Goal pose; what drives to it refuses NaN.
 
     Attributes:
         x: [m].

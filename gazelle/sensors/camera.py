@@ -17,7 +17,7 @@ from gazelle.engines import Engine
 from gazelle.errors import EngineError, SimulationError
 from gazelle.rendering import LiveScene
 from gazelle.rotations import multiply, rotate
-from gazelle.sensors.limits import check_worlds
+from gazelle.sensors.limits import check_interval, check_worlds
 from gazelle.sensors.optics import Optics, optics_of
 from gazelle.states import restore_all, states_of
 from gazelle.streams import Stream
@@ -95,9 +95,9 @@ class CameraModel:
 
         Args:
             worlds: Worlds; all if None.
-            interval: Plays no part.
+            interval: Time since the last measurement [s], for sensors with drifts.
         """
-        del interval
+        check_interval(interval)
         check_worlds(worlds, self._engine.nworld)
         parts: list[Bytes] = []
         for number, optics in enumerate(self._optics):

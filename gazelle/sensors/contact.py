@@ -12,7 +12,7 @@ from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Indices, Worlds
 from gazelle.engines import Contacts, ContactTable, Engine
 from gazelle.errors import SimulationError
-from gazelle.sensors.limits import check_worlds
+from gazelle.sensors.limits import check_interval, check_worlds
 from gazelle.sensors.model import NoisySensor, PythonSensors, SystemMaker
 
 # Values of one contact: two names, position, normal, depth, force, torque.
@@ -65,8 +65,9 @@ class ContactModel(NoisySensor):
 
         Args:
             worlds: Worlds; all if None.
-            interval: Not used.
+            interval: Time since the last measurement [s], for sensors with drifts.
         """
+        check_interval(interval)
         check_worlds(worlds, self.engine.nworld)
         return self._alone.measure_all(interval, worlds)[:, 0]
 

@@ -15,7 +15,7 @@ from gazelle.engines import Engine, RangeRays
 from gazelle.errors import SimulationError
 from gazelle.sensors.lidar_group import LidarGroup
 from gazelle.sensors.lidar_ranges import LidarNoise, RangeLaw, measure
-from gazelle.sensors.limits import check_worlds
+from gazelle.sensors.limits import check_interval, check_worlds
 from gazelle.sensors.model import SystemMaker
 from gazelle.sensors.noise import NoiseModel
 
@@ -101,6 +101,7 @@ class LidarModel:
             interval: Time since the last measurement [s].
         """
         check_worlds(worlds, self.engine.nworld)
+        check_interval(interval)
         noise = self._noise
         if worlds is None and not noise.drifts:
             return np.ascontiguousarray(self._own().measure_rows())

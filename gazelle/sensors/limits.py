@@ -63,3 +63,15 @@ def _rays(scan: Scan) -> float:
 
 def _float(count: int) -> float:
     return float(min(count, 10**18))
+
+
+def check_interval(interval: float) -> None:
+    """Check the time between two measurements: a drift would be NaN for ever after NaN.
+
+    Raises:
+        SimulationError: It is below 0 s, or NaN.
+    """
+    if not interval >= 0.0:
+        raise SimulationError(
+            f"the time since the last measurement must be 0 s or more, not {interval!r:.60}"
+        )

@@ -14,6 +14,7 @@ from gazelle.array_types import Floats, Worlds
 from gazelle.description import Noise
 from gazelle.errors import SimulationError
 from gazelle.native.system import System
+from gazelle.sensors.limits import check_interval
 from gazelle.sensors.noise import NoiseModel
 from gazelle.states import restore_all, states_of
 
@@ -147,6 +148,7 @@ class NoisySensor:
 
         The same array where there is none.
         """
+        check_interval(interval)
         if not any(model.active for model in self._noises):
             return values
         columns = [

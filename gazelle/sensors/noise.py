@@ -14,6 +14,7 @@ from gazelle.array_types import Floats, Indices, UInts64, Worlds
 from gazelle.description import Noise
 from gazelle.engines.limits import MAX_VALUES
 from gazelle.errors import SimulationError
+from gazelle.sensors.limits import check_interval
 from gazelle.streams import Stream
 
 NO_NOISE = Noise()
@@ -172,6 +173,7 @@ class NoiseModel:
         Returns:
             Measured values, shape (n, channels).
         """
+        check_interval(interval)
         if not self._active:
             return values
         rows = NoiseRows(self._noise, self._stream, self._stddev, self._bias, self._drift)

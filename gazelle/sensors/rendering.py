@@ -46,7 +46,7 @@ class View:
     samples: int = 2
 
 
-@checked(SimulationError, after=True)
+@checked(SimulationError)
 def look_at(eye: tuple[float, float, float], target: tuple[float, float, float]) -> Pose:
     """Return the pose of an upright camera at ``eye`` [m] with ``target`` [m] in its middle."""
     dx, dy, dz = (t - e for e, t in zip(eye, target, strict=True))

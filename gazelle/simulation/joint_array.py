@@ -66,7 +66,8 @@ class JointArray:
             chosen: Mask of joints, shape (joints,); all if None.
 
         Raises:
-            SimulationError: The velocities are of another shape, or one is not a number.
+            SimulationError: The velocities are of another shape, or not of numbers. NaN, as a
+                policy may command it, ends its world in the next step.
         """
         try:
             velocities = np.broadcast_to(np.asarray(velocity, np.float64), self._shape)

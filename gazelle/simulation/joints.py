@@ -62,7 +62,7 @@ class JointHandle:
     @property
     @between_steps
     def effort(self) -> None:
-        """Write-only effort that acts until the next one [N or N m]."""
+        """Write-only effort that acts until the next one [N or N m]; NaN ends its world."""
         raise SimulationError(f"the effort on joint '{self.name}' is measured by a force sensor")
 
     @effort.setter
@@ -183,7 +183,10 @@ class JointHandle:
 
     @between_steps
     def drive(self, velocity: ArrayLike, worlds: Worlds | None = None) -> None:
-        """Set what the motor holds [m/s or rad/s]: () or (n,), of several axes (n, axes)."""
+        """Set what the motor holds [m/s or rad/s]: () or (n,), of several axes (n, axes).
+
+        NaN, as a policy may command it, ends its world in the next step.
+        """
         some = self._some(worlds)
         try:
             self._row.set_motor_velocity(velocity, some)

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from gazelle.description import JointAxis, Light, Link, Pose, Sphere, World
+from gazelle.description import JointAxis, Light, Link, Polyline, Pose, Sphere, World
 from gazelle.errors import FormatError
 
 
@@ -15,6 +15,7 @@ from gazelle.errors import FormatError
         (lambda: World(gravity=(0.0, math.nan, 0.0)), "World takes no NaN: gravity is"),
         (lambda: Link("l", Pose(yaw=math.nan)), "Link takes no NaN: pose is"),
         (lambda: JointAxis(xyz=(math.nan, 0.0, 0.0)), "JointAxis takes no NaN: xyz is"),
+        (lambda: Polyline(([(0.0, 0.0), (1.0, 0.0), (1.0, math.nan)],)), "Polyline takes no NaN"),
         (lambda: Light("l", intensity=math.nan), "Light takes no NaN: intensity is nan"),
     ],
 )

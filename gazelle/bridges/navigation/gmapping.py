@@ -68,8 +68,8 @@ class GmappingNode(MappingNode):
         if odom is None:
             return False
         # What is too near is as good as nothing.
-        ranges[ranges < message.range_min] = message.range_max
-        most = float(message.range_max)
+        most = max(0.0, message.range_max)  # of NaN 0
+        ranges[ranges < message.range_min] = most
         changed = self.slam.update(stamp / SECOND, odom, ranges, angles, most, laser)
         if changed:
             entropy = std_msgs.msg.Float64()

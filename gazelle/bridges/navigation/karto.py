@@ -76,4 +76,5 @@ class KartoNode(MappingNode):
         if odom is None:
             return False
         ranges[ranges < message.range_min] = np.inf
-        return self.slam.update(odom, ranges, angles, float(message.range_max), laser)
+        most = max(0.0, message.range_max)  # of NaN 0
+        return self.slam.update(odom, ranges, angles, most, laser)

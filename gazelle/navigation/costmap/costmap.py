@@ -151,7 +151,7 @@ class Costmap:
         return (column, row) if 0 <= column < columns and 0 <= row < rows else None
 
     def place_of(self, column: float, row: float) -> tuple[float, float]:
-        """Return the middle of a cell (x, y) [m]."""
+        """Return the middle of a cell (x, y) [m]; of NaN NaN."""
         return (
             self.origin[0] + (column + 0.5) * self.resolution,
             self.origin[1] + (row + 0.5) * self.resolution,

@@ -59,6 +59,12 @@ class Measurement:
     threshold: float = np.inf
     command: StampedCommand | None = None
 
+    def __post_init__(self) -> None:
+        if not abs(self.threshold) >= 0.0:
+            raise Error(
+                f"the threshold of '{self.source}' must be a number, not {self.threshold!r:.60}"
+            )
+
 
 @dataclass(frozen=True, slots=True)
 class Estimate:

@@ -138,7 +138,14 @@ class GridSlam:
 
         Returns:
             Whether the maps have changed.
+
+        Raises:
+            Error: The time is not finite, or the greatest range NaN.
         """
+        if not (math.isfinite(time) and range_max >= 0.0):
+            raise Error(
+                f"a scan is of a time, and sees so far, not {time!r:.60}, {range_max!r:.60}"
+            )
         s = self.settings
         first = self._odom is None
         if first:

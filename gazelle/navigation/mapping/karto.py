@@ -103,7 +103,12 @@ class KartoSlam:
 
         Returns:
             Whether the map has changed.
+
+        Raises:
+            Error: The greatest range is NaN.
         """
+        if not range_max >= 0.0:
+            raise Error(f"a scan sees so far, not {range_max!r:.60}")
         if self._odom is not None and not self._has_moved(between(self._odom, odom)):
             return False
         good = np.isfinite(ranges) & (ranges > 0.0) & (ranges < range_max)

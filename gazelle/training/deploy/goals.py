@@ -26,7 +26,7 @@ class GoalPlace:
 
 @dataclass(frozen=True, slots=True)
 class GoalResult:
-    """Result of a goal."""
+    """Result of a goal; the distance is NaN where it was never measured."""
 
     goal: GoalPlace
     outcome: str

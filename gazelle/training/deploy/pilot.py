@@ -14,7 +14,7 @@ from gazelle.argument_checks import checked
 from gazelle.errors import TaskError
 from gazelle.training.deploy.goals import GoalPlace, GoalResult
 from gazelle.training.deploy.policies import Decision, Policy
-from gazelle.training.deploy.safety import STAND, SafetyLimits, VelocityCommand, unusable
+from gazelle.training.deploy.safety import STAND, SafetyLimits, VelocityCommand, lost, unusable
 from gazelle.training.deploy.sensing import (
     Observer,
     OdometryReading,
@@ -59,6 +59,8 @@ class PilotOutput:
 @checked(TaskError, after=True)
 class Pilot:
     """Follows a policy to one goal after another.
+
+    Readings may hold NaN, which stops the robot; times are finite.
 
     Args:
         policy: Acts.
@@ -108,12 +110,12 @@ class Pilot:
 
     def set_scan(self, scan: ScanReading, now: float) -> None:
         """Store a scan."""
-        self._scan = (now, scan)
+        self._scan = (_moment(now), scan)
         self._fresh = True
 
     def set_odometry(self, odometry: OdometryReading, now: float) -> None:
         """Store odometry, in the frame of the goals."""
-        self._odometry = (now, odometry)
+        self._odometry = (_moment(now), odometry)
 
     @checked(TaskError)
     def go_to(self, goals: Iterable[GoalPlace], now: float) -> GoalResult | None:
@@ -125,7 +127,7 @@ class Pilot:
 
     def arm(self, now: float) -> str | None:
         """Arm the robot; returns the reason if it cannot be armed, or None."""
-        fault = self._blind(now)
+        fault = self._blind(_moment(now))
         if fault is None:
             self.armed = True
             self._halt()
@@ -143,9 +145,9 @@ class Pilot:
 
         Args:
             now: Time [s].
-            place: Of the goal in the frame of the odometry [m]; None where that is not known.
+            place: Of the goal in the frame of the odometry [m]; None or NaN where that is not known.
         """
-        if now < self._now - _SPEED_CHANGE:
+        if _moment(now) < self._now - _SPEED_CHANGE:
             # Time started again: earlier messages are of another run.
             self._scan = self._odometry = None
             self._halt()
@@ -155,7 +157,7 @@ class Pilot:
         if self._began is None:
             self._began = now
         fault = self._blind(now)
-        if fault is None and place is None:
+        if fault is None and (place is None or not all(map(math.isfinite, place))):
             fault = f"no transform from the goal's frame '{self.goal.frame}'"
         if fault is not None or place is None or self._scan is None or self._odometry is None:
             last, self._policy_command = self._policy_command, STAND
@@ -249,6 +251,15 @@ class Pilot:
             return "scan lost"
         if now - self._odometry[0] > self.limits.odometry_timeout:
             return "odometry lost"
-        if unusable(self._scan[1]):
-            return "scan unusable: most rays failed"
-        return None
+        return unusable(self._scan[1]) or lost(self._odometry[1])
+
+
+def _moment(now: float) -> float:
+    """Return a time: NaN is later than no timeout.
+
+    Raises:
+        TaskError: It is not a finite number.
+    """
+    if not math.isfinite(now):
+        raise TaskError(f"the time must be a finite number of seconds, not {now!r:.60}")
+    return now

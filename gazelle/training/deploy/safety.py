@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
 from gazelle.argument_checks import checked
 from gazelle.envs.contract import PolicyContract
 from gazelle.errors import TaskError
-from gazelle.training.deploy.sensing import ScanReading
+from gazelle.training.deploy.sensing import OdometryReading, ScanReading
 
 _MARGIN = 0.03  # [m] that are driven between two scans of 5 Hz at 0.15 m/s
 _STOP_DISTANCE = 0.3  # [m] where a contract has no range of collisions
@@ -19,7 +19,10 @@ _FAILED = 0.5  # share of rays that may fail
 
 @dataclass(frozen=True, slots=True)
 class VelocityCommand:
-    """A forward speed [m/s] and a yaw rate, left positive [rad/s]."""
+    """A forward speed [m/s] and a yaw rate, left positive [rad/s].
+
+    As a policy computes them: `SafetyLimits.limited` makes 0 of NaN.
+    """
 
     linear: float = 0.0
     angular: float = 0.0
@@ -85,19 +88,31 @@ class SafetyLimits:
             scan: The newest; all rays count, not only those that the policy sees.
             turned: Yaw of the lidar, to the left [rad].
         """
+        angles = scan.angles(turned)
         if command.linear == 0.0 or self.stop_distance == 0.0:
             return None
         ahead = 0.0 if command.linear > 0.0 else math.pi
-        away = np.abs(np.angle(np.exp(1j * (scan.angles(turned) - ahead))))
+        away = np.abs(np.angle(np.exp(1j * (angles - ahead))))
         near = scan.measured() | np.isneginf(scan.ranges)
         ranges = np.where(near & (away <= self.stop_angle), scan.ranges, np.inf)
         nearest = max(float(ranges.min(initial=np.inf)), 0.0)
         return nearest if nearest < self.stop_distance else None
 
 
-def unusable(scan: ScanReading) -> bool:
-    """Return whether too many rays of a scan failed to drive by it."""
-    return len(scan.ranges) == 0 or float(scan.failed().mean()) > _FAILED
+def unusable(scan: ScanReading) -> str | None:
+    """Return why the robot cannot drive by a scan, or None: of NaN no obstacle is near or ahead."""
+    if len(scan.ranges) == 0 or float(scan.failed().mean()) > _FAILED:
+        return "scan unusable: most rays failed"
+    angles = scan.angle_min, scan.angle_increment
+    if not all(map(math.isfinite, angles)) or math.isnan(scan.range_min + scan.range_max):
+        return "scan unusable: its angles or limits are not numbers"
+    return None
+
+
+def lost(odometry: OdometryReading) -> str | None:
+    """Return why the robot cannot drive by odometry, or None."""
+    finite = all(math.isfinite(getattr(odometry, each.name)) for each in fields(odometry))
+    return None if finite else "odometry unusable: not finite numbers"
 
 
 def _cut(value: float, most: float) -> float:

@@ -26,7 +26,7 @@ _KINDS = {
 @checked(TaskError, after=True)
 @dataclass(frozen=True, slots=True)
 class ScanReading:
-    """One turn of a lidar, as sensor_msgs/LaserScan has it."""
+    """One turn of a lidar, as sensor_msgs/LaserScan has it: the robot stands still by angles of NaN."""
 
     ranges: Floats
     """Ranges [m], shape (rays,); +inf nothing in range, -inf too near, NaN failed (REP 117)."""
@@ -56,6 +56,8 @@ class ScanReading:
         Args:
             turned: Yaw of the lidar itself, to the left [rad].
         """
+        if not math.isfinite(turned):
+            raise TaskError(f"the yaw of a lidar must be a finite number, not {turned!r:.60}")
         steps = np.arange(len(self.ranges), dtype=np.float64)
         angles: Floats = self.angle_min + turned + self.angle_increment * steps
         return wrapped_all(angles)
@@ -63,7 +65,7 @@ class ScanReading:
 
 @dataclass(frozen=True, slots=True)
 class OdometryReading:
-    """Pose and velocity of a robot, as in nav_msgs/Odometry."""
+    """Pose and velocity of a robot, as in nav_msgs/Odometry; by NaN the robot stands still."""
 
     x: float
     """X [m]"""

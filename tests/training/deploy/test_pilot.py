@@ -251,10 +251,48 @@ def test_a_lidar_that_is_turned_by_no_angle_is_refused(straight_on, turned):
         Pilot(open_policy(straight_on), SafetyLimits(), turned=turned)
 
 
-def test_a_time_of_nan_is_refused(pilot):
-    with pytest.raises(TaskError, match="'now' must be a finite number"):
-        pilot.go_to([GoalPlace(1.0, 0.0)], math.nan)
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda pilot, now: pilot.go_to([GoalPlace(1.0, 0.0)], now),
+        lambda pilot, now: pilot.set_scan(scan(), now),
+        lambda pilot, now: pilot.set_odometry(AT, now),
+        lambda pilot, now: pilot.tick(now, (3.0, 0.0)),
+        lambda pilot, now: pilot.arm(now),
+    ],
+)
+def test_a_time_of_nan_is_refused_and_readings_grow_old_all_the_same(pilot, call):
+    for now in (math.nan, math.inf, -math.inf):
+        with pytest.raises(TaskError, match="must be a finite number"):
+            call(pilot, now)
     assert not pilot.outcomes
+    assert pilot.tick(10.0, (3.0, 0.0)).command.moves
+    assert pilot.tick(99.0, (3.0, 0.0)).reason == "scan lost"
+
+
+@pytest.mark.parametrize("name", ["x", "y", "yaw", "forward", "turning"])
+def test_odometry_with_nan_stops_it(pilot, name):
+    pilot.set_odometry(dataclasses.replace(AT, **{name: math.nan}), 10.0)
+    tick = pilot.tick(10.0, (3.0, 0.0))
+    assert (tick.command.moves, tick.acted) == (False, None)
+    assert tick.reason == "odometry unusable: not finite numbers"
+
+
+@pytest.mark.parametrize("name", ["angle_min", "angle_increment", "range_min", "range_max"])
+def test_a_scan_that_says_nowhere_stops_it(pilot, name):
+    pilot.set_scan(dataclasses.replace(scan(), **{name: math.nan}), 10.0)
+    tick = pilot.tick(10.0, (3.0, 0.0))
+    assert not tick.command.moves
+    assert tick.reason.startswith("scan unusable")
+
+
+def test_a_goal_that_is_nowhere_stops_it(pilot):
+    assert not pilot.tick(10.0, (math.nan, 0.0)).command.moves
+
+
+def test_obstacles_are_looked_for_in_a_direction():
+    with pytest.raises(TaskError, match="yaw of a lidar"):
+        SafetyLimits().blocked(VelocityCommand(), scan(), turned=math.nan)
 
 
 @pytest.mark.parametrize("text", ["1,2\n3,4", "", '"', "1", "nan,1", "1e400,1"])

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 from gazelle_ros.base.errors import RosError
+from gazelle_ros.base.real_numbers import finite
 from gazelle_ros.base.rotations import IDENTITY, ORIGIN, Quaternion, Vector, add, multiply, rotate
 from gazelle_ros.launch.document import Element, parse_element
 from gazelle_ros.launch.errors import LaunchError
@@ -40,6 +42,9 @@ class TreeJoint:
         lower: Least position [rad or m]; None without limits.
         upper: Largest position [rad or m]; None without limits.
         mimic: Mimicked joint; None if it moves by itself.
+
+    Raises:
+        RosError: A number is not finite.
     """
 
     name: str
@@ -55,8 +60,18 @@ class TreeJoint:
     soft_lower: float | None = None
     soft_upper: float | None = None
 
+    def __post_init__(self) -> None:
+        limits = (self.lower, self.upper, self.soft_lower, self.soft_upper)
+        rows = (self.translation, 3), (self.rotation, 4), (self.axis, 3)
+        numbers = [each for each in limits if each is not None]
+        if not all(_is_row(*each) for each in (*rows, (numbers, len(numbers)))):
+            raise RosError(f"the joint '{self.name}' has numbers that are not finite, or missing")
+
     def placed(self, position: float) -> tuple[Vector, Quaternion]:
-        """Return translation and rotation of the child in the parent at a position [rad or m]."""
+        """Return translation and rotation of the child in the parent at a position [rad or m].
+
+        With a position of NaN they hold NaN.
+        """
         if self.kind in _TURNING:
             sine, cosine = math.sin(position / 2.0), math.cos(position / 2.0)
             x, y, z = self.axis
@@ -164,25 +179,39 @@ def _line(element: Element | None) -> int | None:
     return None if element is None else element.line
 
 
+def _float(text: str) -> float | None:
+    """Return a finite number of a file; None for anything else."""
+    try:
+        return finite(float(text))
+    except ValueError:
+        return None
+
+
 def _number(element: Element | None, key: str, default: float) -> float:
     text = None if element is None else element.attributes.get(key)
     if text is None:
         return default
-    try:
-        return float(text)
-    except ValueError:
-        raise RosError(f"{key} is '{text}', not a number", line=_line(element)) from None
+    number = _float(text)
+    if number is None:
+        raise RosError(f"{key} is '{text}', not a finite number", line=_line(element))
+    return number
 
 
 def _three(element: Element, key: str, default: Vector) -> Vector:
     text = element.attributes.get(key)
     if text is None:
         return default
-    try:
-        x, y, z = (float(word) for word in text.split())
-    except ValueError:
-        raise RosError(f"{key} is '{text}', not three numbers", line=_line(element)) from None
-    return (x, y, z)
+    numbers = [_float(word) for word in text.split()]
+    three = [number for number in numbers if number is not None]
+    if len(three) != 3 or len(numbers) != 3:
+        raise RosError(f"{key} is '{text}', not three finite numbers", line=_line(element))
+    return (three[0], three[1], three[2])
+
+
+def _is_row(row: Any, length: int) -> bool:
+    """Return whether a value is a row of so many finite numbers."""
+    fits = isinstance(row, tuple | list) and len(row) == length
+    return fits and all(finite(each) is not None for each in row)
 
 
 def _unit(axis: Vector) -> Vector:

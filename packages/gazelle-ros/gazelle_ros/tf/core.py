@@ -110,7 +110,7 @@ class FrameTree:
             static: Whether it holds at all times; the first placement of a frame decides.
 
         Returns:
-            False if it was refused; the log says why.
+            False if it was refused, such as NaN; the log says why.
         """
         parent, child = parent.removeprefix("/"), child.removeprefix("/")
         fault = placement_fault(parent, child, translation, rotation, authority)
