@@ -117,6 +117,13 @@ class JointRows(Protocol):
     def velocity(self, worlds: Worlds | None = None) -> Floats:
         """Return velocities [m/s or rad/s], shape (n, joints)."""
 
+    def limits(self) -> tuple[Floats, Floats]:
+        """Return least and greatest positions [m or rad], shape (nworld, joints) each.
+
+        Raises:
+            EngineError: The engine has none.
+        """
+
     def place(self, position: Floats, velocity: Floats, chosen: Bools) -> None:
         """Set positions and velocities, positions to their limits at most.
 

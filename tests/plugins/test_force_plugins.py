@@ -197,6 +197,37 @@ def test_a_joint_does_not_follow_beyond_its_stops():
         assert joints["jb"].position == pytest.approx(1.0, abs=1e-3)
 
 
+def test_a_joint_follows_one_that_follows_another_in_the_same_step():
+    third = """<link name="c"><pose>0 0.2 0 0 0 0</pose><inertial><mass>0.2</mass></inertial></link>
+      <joint name="jc" type="revolute"><parent>palm</parent><child>c</child>
+      <axis><xyz>0 0 1</xyz></axis></joint>"""
+    chain = plugin("libmimic_joint_plugin.so", joint="jb", mimicJoint="jc", multiplier="2")
+    first = plugin("libmimic_joint_plugin.so", **MIMIC)
+    with simulate(
+        FINGERS.format(plugin=third + first + chain.replace('p"', 'q"', 1)), ground=False, nworld=3
+    ) as sim:
+        joints = sim.robots["hand"].joints
+        joints["ja"].position = np.array([0.2, -0.3, -2.0])
+        sim.step()
+        assert joints["jb"].positions()[:, 0] == pytest.approx([-0.1, 0.4, 1.0], abs=1e-6)
+        assert joints["jc"].positions()[:, 0] == pytest.approx([-0.2, 0.8, 2.0], abs=1e-6)
+
+
+def test_joints_of_all_kinds_follow_side_by_side():
+    tags = plugin("libmimic_joint_plugin.so", **MIMIC)
+    pushed = plugin("libmimic_joint_plugin.so", **MIMIC, hasPID="1")
+    hand = FINGERS.format(plugin=tags)
+    other = FINGERS.format(plugin=pushed).replace('name="hand"', 'name="other"')
+    with simulate(hand + other, ground=False) as sim:
+        robots = sim.robots["hand"], sim.robots["other"]
+        for robot in robots:
+            robot.joints["ja"].position = 0.5
+        sim.run(seconds=1.0)
+        for robot in robots:
+            joints = robot.joints
+            assert joints["jb"].position == pytest.approx(0.1 - joints["ja"].position, abs=0.01)
+
+
 def test_what_a_mimic_joint_lacks_is_named():
     with pytest.raises(PluginWarning, match="mimicJoint"):
         simulate(FINGERS.format(plugin=plugin("libmimic_joint_plugin.so", joint="ja")))

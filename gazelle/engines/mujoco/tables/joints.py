@@ -145,7 +145,7 @@ class MujocoJointRows:
         self._run, self._names, self._in_step = run, names, in_step
         self._columns = Lookup[MujocoLayout, JointColumns](lambda at: JointColumns.find(at, names))
         self._motors = Lookup[MujocoLayout, Indices](self._find_motors)
-        self._limits: tuple[tuple[int, int], Floats, Floats] | None = None
+        self._known_limits: tuple[tuple[int, int], Floats, Floats] | None = None
 
     def position(self, worlds: Worlds | None = None) -> Floats:
         """Return positions [m or rad], shape (n, joints)."""
@@ -160,7 +160,7 @@ class MujocoJointRows:
     def place(self, position: Floats, velocity: Floats, chosen: Bools) -> None:
         """Set positions and velocities of joints with one axis, to their limits at most."""
         columns = self._columns.within(self._run.up_to_date())
-        within = np.clip(position, *self._bounds())
+        within = np.clip(position, *self.limits())
         qpos, qvel = self._run.state.qpos, self._run.state.qvel
         if chosen.all():
             qpos[:, columns.places], qvel[:, columns.dofs] = within, velocity
@@ -170,16 +170,16 @@ class MujocoJointRows:
             qvel[worlds, columns.dofs[joints]] = velocity[chosen]
         self._run.placed = self._run.stale = True
 
-    def _bounds(self) -> tuple[Floats, Floats]:
-        """Return least and greatest positions [m or rad], shape (nworld, joints)."""
+    def limits(self) -> tuple[Floats, Floats]:
+        """Return least and greatest positions [m or rad], shape (nworld, joints) each."""
         writes = self._run.revision, self._run.parameters.writes
-        known = self._limits
+        known = self._known_limits
         if known is None or known[0] != writes:
             lower, upper = (
                 np.concatenate([self._run.parameter(f"joint_{s}", n) for n in self._names], axis=1)
                 for s in _SIDES
             )
-            known = self._limits = writes, lower, np.maximum(lower, upper)
+            known = self._known_limits = writes, lower, np.maximum(lower, upper)
         return known[1:]
 
     @property

@@ -86,6 +86,10 @@ class PlanarJointRows:
         """Return velocities [m/s or rad/s], shape (n, joints)."""
         return self._run.rates[rows_of(worlds)].take(self._columns.within(self._run.layout), axis=1)
 
+    def limits(self) -> tuple[Floats, Floats]:
+        """Raise an error: the plane has no limits of joints."""
+        raise refuse("limits of joints")
+
     def place(self, position: Floats, velocity: Floats, chosen: Bools) -> None:
         """Set positions and velocities [m or rad, m/s or rad/s], shape (nworld, joints)."""
         worlds, joints = np.nonzero(chosen)
