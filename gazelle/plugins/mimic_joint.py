@@ -107,7 +107,7 @@ class MimicSystem(PluginSystem[MimicJoint]):
         self._rounds = [_Followers(some) for some in rounds]
 
     def update(self, time: float) -> None:  # noqa: ARG002  they act at every step
-        """Let all follow, those that follow others after these."""
+        """Update all: those that follow others come after these."""
         for each in self._rounds:
             each.update()
 
