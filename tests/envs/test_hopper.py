@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import runpy
+from pathlib import Path
+
 import gymnasium as gym
 import numpy as np
 import pytest
@@ -10,6 +13,7 @@ from gymnasium.utils.env_checker import check_env
 from gazelle import assets, formats
 from gazelle.envs.hopper.task import HopperTask
 from gazelle.envs.options import TaskSettings
+from gazelle.rotations import rotate
 
 ID = "gazelle/HopperStayUp-v0"
 
@@ -75,3 +79,20 @@ def test_it_falls_when_nobody_balances_it_and_that_is_the_end():
     assert ended.all()
     assert (heights < 0.5).all()
     env.close()
+
+
+def test_a_sideways_lean_grows_whatever_the_joints_do():
+    """As an inverted pendulum from the robot's file, by which tools/hopper_bound.py bounds the task."""
+    bound = runpy.run_path(str(Path(__file__).parents[2] / "tools" / "hopper_bound.py"))
+    model = formats.load_model(assets.robot("monoped"))
+    lean, omega = sum(bound["bounds"](model).values()), bound["leg"](model, 0.0).omega
+    assert 0.002 < lean < 0.006
+    task = begun(64)
+    task.set_lean(np.tile((lean, 0.0), (64, 1)), np.arange(64))
+    plane, _ = task.robot.frame("upperleg")
+    rng = np.random.default_rng(0)
+    for step in range(1, 19):
+        task.advance(rng.integers(0, 6, 64))
+        leaned = rotate(plane.placement().quaternion, np.tile((0.0, 1.0, 0.0), (64, 1)))[:, 2]
+        grown = np.cosh(omega * step * 0.05)
+        np.testing.assert_allclose(leaned / lean, grown, rtol=0.12)
