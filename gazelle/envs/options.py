@@ -92,7 +92,7 @@ class TaskSettings:
             if value is not None:
                 check_integer(name, value, least, most)
         if self.time_step is not None:
-            _check_time_step(self.time_step)
+            check_seconds("time_step", self.time_step, below=1.0)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -243,11 +243,16 @@ def check_up_to(name: str, value: object, most: float, unit: str) -> None:
         raise TaskError(f"{name} must be from 0 to {most} {unit}, not {value!r:.60}")
 
 
-def _check_time_step(value: object) -> None:
+def check_seconds(name: str, value: object, *, below: float) -> None:
+    """Check that an option is a time of a step that is below a number of seconds.
+
+    Raises:
+        TaskError: It is not.
+    """
     number = real(value)
-    if number is None or not SHORTEST_STEP <= number < 1.0:
+    if number is None or not SHORTEST_STEP <= number < below:
         raise TaskError(
-            f"time_step must be a number of seconds from {SHORTEST_STEP:g} to 1, not {value!r}"
+            f"{name} must be a number of seconds from {SHORTEST_STEP:g} to {below:g}, not {value!r}"
         )
 
 

@@ -44,14 +44,16 @@ def contract_of(contract: PolicyContract, config: RunConfig) -> PolicyContract:
         contract: Of its task, see `task_contract`.
         config: Of the run.
     """
-    limit, steps = contract.time_limit, config.recipe.evaluation_options.get("max_episode_steps")
-    if (
-        steps is not None and contract.control_period
-    ):  # trainings may have shorter or longer episodes
-        limit = steps * contract.control_period
+    # Trainings may have shorter or longer episodes, and steps.
+    evaluated = config.recipe.evaluation_options
+    period = evaluated.get("control_period", contract.control_period)
+    limit, steps = contract.time_limit, evaluated.get("max_episode_steps")
+    if steps is not None and period:
+        limit = steps * period
     return dataclasses.replace(
         contract,
         task=config.task,
+        control_period=period,
         time_limit=limit,
         versions=versions(),
         training={

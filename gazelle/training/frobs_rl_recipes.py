@@ -60,13 +60,25 @@ FROBS_RL: dict[str, Recipe] = {
     "ABBIRB120Reach": _REACH,
     "ABBIRB140Reach": dataclasses.replace(_REACH, steps=400_000),
     "UR5Reach": _FROM_ANYWHERE,
+    # Joints turn by 0.02 rad a step: speeds that are held for ten show ten times as many goals, and
+    # what they lead to: 70 % are there in the end, with single steps 46 %. Goals near the base need folded
+    # postures, which larger networks tell apart, and a longer horizon.
     "ABBIRB140VelocityReach": dataclasses.replace(
         _REACH,
-        steps=400_000,
+        steps=800_000,
+        net_arch=(256, 256),
+        learning_rate=1.5e-3,
         gamma=0.97,
-        goal_reward=GoalReward(goal=0.0, collision=0.0, progress=4.0, own=0.0005),
+        goal_reward=GoalReward(goal=0.0, collision=0.0, progress=4.0, own=0.004),
         angles=tuple(range(6)),
-        settings=dataclasses.replace(_REACH_SETTINGS, initial_std=0.1),
+        training_options={
+            "engine": "mujoco",
+            "time_step": 0.1,
+            "control_period": 1.0,
+            "max_episode_steps": 30,
+        },
+        evaluation_options={"time_step": 0.01, "control_period": 0.1, "max_episode_steps": 300},
+        settings=dataclasses.replace(_REACH_SETTINGS, initial_std=0.2),
     ),
     **dict.fromkeys(("KobukiEmpty", "KobukiDynamic3"), _KOBUKI),
     **dict.fromkeys(("KobukiDynamic1", "KobukiDynamic2"), _KOBUKI_FAR),

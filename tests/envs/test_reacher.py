@@ -116,6 +116,23 @@ def test_a_speed_holds_and_stops_before_limits():
     assert step.reward[1] - (-step.info["distance"][1]) == pytest.approx(-10.0)
 
 
+def test_a_speed_holds_for_a_longer_control_period():
+    task = ReachTask(IRB140_SPEED, 2, ReachSettings(control_period=1.0))
+    task.seed(0)
+    task.begin(np.arange(2))
+    posed(task, np.zeros((2, 6)))
+    task.advance(np.full((2, 6), [[0.1], [-0.2]]))
+    wanted = np.tile([[0.1], [-0.2]], (1, 6))
+    np.testing.assert_allclose(task._see(None).angles, wanted, atol=2e-3)
+    assert task.control_period == 1.0
+
+
+@pytest.mark.parametrize("period", [0.0, -1.0, np.nan, 61.0, "1 s", True])
+def test_a_wrong_control_period_is_refused(period):
+    with pytest.raises(TaskError, match="control_period must be a number of seconds"):
+        ReachSettings(control_period=period)
+
+
 @pytest.mark.parametrize("rules", [IRB120, IRB140, IRB140_SPEED, UR5])
 def test_rewards_are_the_published_ones(rules):
     task = begun(rules, 16)

@@ -217,6 +217,7 @@ def test_thestep_size_is_held_before_it_falls():
     sizes = [step_size(held)(left) for left in (1.0, 0.7, 0.4, 0.2, 0.0)]
     assert sizes == pytest.approx([2e-3, 2e-3, 2e-3, 1e-3, 0.0])
     assert step_size(Recipe(learning_rate=2e-3))(0.5) == pytest.approx(1e-3)
+    assert step_size(Recipe(learning_rate=2e-3))(-0.01) == 0.0
     assert step_size(Recipe(learning_rate=2e-3, learning_rate_decay=False)) == 2e-3
     with pytest.raises(TaskError, match="learning_rate_hold"):
         Recipe(learning_rate_hold=1.0)

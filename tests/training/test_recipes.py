@@ -91,18 +91,24 @@ def test_episodes_of_another_length_are_for_training_only(task):
     assert recipe.evaluation_options.get("max_episode_steps", trained) == own
 
 
-def test_a_contract_has_the_time_of_an_evaluation_and_not_of_a_training():
+@pytest.mark.parametrize(
+    ("task", "period", "limit"),
+    [("TurtleBot2Maze", 0.2, 100.0), ("ABBIRB140VelocityReach", 0.1, 30.0)],
+)
+def test_a_contract_has_the_times_of_an_evaluation_and_not_of_a_training(task, period, limit):
+    recipe = RECIPES[task]
     config = RunConfig(
-        task="gazelle/TurtleBot2Maze-v0",
-        recipe=RECIPES["TurtleBot2Maze"],
+        task=f"gazelle/{task}-v0",
+        recipe=recipe,
         seed=0,
-        options=dict(RECIPES["TurtleBot2Maze"].training_options),
+        options=dict(recipe.training_options),
         checkpoint_every=1,
     )
     env = make_task(config.task, 1, **config.options)
     contract = contract_of(task_contract(env), config)
     env.close()
-    assert contract.time_limit == pytest.approx(100.0)
+    assert contract.control_period == pytest.approx(period)
+    assert contract.time_limit == pytest.approx(limit)
 
 
 @pytest.mark.slow

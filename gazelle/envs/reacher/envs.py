@@ -73,7 +73,8 @@ class UR5ReachEnv(ReachEnv):
     ## Options
 
     Those that every task takes (docs/reference/gymnasium.md); it needs an engine in space. ``goals="held-out"`` draws goals from
-    other places, which evaluations do; ``"training"`` ones are the published ones.
+    other places, which evaluations do; ``"training"`` ones are the published ones. ``control_period`` is the time of
+    a step [s]: speeds are held for as long.
 
     ## Versions
 

@@ -12,7 +12,7 @@ from gazelle import assets, formats
 from gazelle.array_types import Bools, Floats, Floats32, Worlds
 from gazelle.description import Model, World
 from gazelle.envs.batched_task import Info
-from gazelle.envs.options import SPLITS, DynamicsSettings, check_name
+from gazelle.envs.options import SPLITS, DynamicsSettings, check_name, check_seconds
 from gazelle.envs.reacher.rules import ReachRules, ReachView
 from gazelle.envs.simulation_task import SimulationTask, StepOutcome, simulation_of
 from gazelle.rotations import rotate
@@ -21,6 +21,7 @@ from gazelle.simulation import Robot, Simulation
 from gazelle.streams import Stream
 
 _TIME_STEP = 0.01
+_LONGEST_STEP = 60.0  # of control [s]
 _EFFORT = 1000.0  # of the motors [N m]
 _TRIES, _BATCH = 40, 512  # of postures that goals come from
 _SHORTEST = 1e-6  # [m]
@@ -33,14 +34,18 @@ class ReachSettings(DynamicsSettings):
 
     Attributes:
         goals: ``published`` and ``training`` goals are the same places, ``held-out`` ones others.
+        control_period: Time of a step [s], a multiple of the physics step; None for the task's own.
     """
 
     goals: str = "published"
+    control_period: float | None = None
 
     def __post_init__(self) -> None:
         # A zero-argument super() does not work in a dataclass with slots.
         DynamicsSettings.__post_init__(self)
         check_name("kind of goals", str(self.goals), SPLITS)
+        if self.control_period is not None:
+            check_seconds("control_period", self.control_period, below=_LONGEST_STEP)
 
 
 class ReachTask(SimulationTask):
@@ -70,7 +75,7 @@ class ReachTask(SimulationTask):
         self.observation_space, self.action_space = self._spaces()
         super().__init__(
             simulation,
-            control_period=rules.control_period,
+            control_period=settings.control_period or rules.control_period,
             max_episode_steps=settings.max_episode_steps,
         )
         self.memory["goal"] = np.zeros((nworld, 3))

@@ -56,7 +56,8 @@ def step_size(recipe: Recipe) -> float | Callable[[float], float]:
     rate, falling = recipe.learning_rate, 1.0 - recipe.learning_rate_hold
     if not recipe.learning_rate_decay:
         return rate
-    return lambda left: rate * min(left / falling, 1.0)
+    # The last rollout of a training can go past its steps, so that less than nothing is left.
+    return lambda left: rate * min(max(left, 0.0) / falling, 1.0)
 
 
 def _goal_places(env: VectorEnvAdapter) -> tuple[slice, slice]:
