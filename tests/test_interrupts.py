@@ -11,9 +11,23 @@ import time
 
 import pytest
 
-from gazelle_ros.base.interrupts import Interrupted, SignalRelay, exit_code, interruptible, stopping
+from gazelle_ros.base.interrupts import (
+    Interrupted,
+    SignalRelay,
+    exit_code,
+    holding,
+    interruptible,
+    stopping,
+)
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+
+
+def until(true):
+    end = time.monotonic() + 60
+    while not true():
+        assert time.monotonic() < end
+        time.sleep(0.001)
 
 
 def send(number, times=1):
@@ -53,6 +67,39 @@ def test_a_signal_interrupts_what_waits_and_a_second_right_after_it_does_not(num
         wait()
     assert tidied == [number]
     assert exit_code(raised.value) == 128 + number
+
+
+@pytest.mark.parametrize("number", SIGNALS)
+def test_a_timeout_interrupts_unless_the_request_was_heeded(number):
+    def wait():
+        send(number)
+        threading.Event().wait(60)
+
+    with pytest.raises(Interrupted) as raised, stopping(timeout=0.01) as stop:
+        wait()
+    assert stop.timed_out
+    assert exit_code(raised.value) == 128 + number
+    with stopping(timeout=0.2) as heeded:
+        send(number)
+        heeded.over.set()
+        time.sleep(0.3)
+    assert not heeded.timed_out
+
+
+def test_a_timeout_lets_what_is_being_written_be_written():
+    written = []
+
+    def write():
+        with holding():
+            send(signal.SIGTERM)
+            until(lambda: stop.timed_out)
+            time.sleep(0.02)
+            written.append(True)
+        threading.Event().wait(60)
+
+    with pytest.raises(Interrupted), stopping(timeout=0.01) as stop:
+        write()
+    assert written
 
 
 def test_an_event_inside_takes_the_request_and_the_block_around_it_goes_on():

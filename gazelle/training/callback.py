@@ -18,7 +18,7 @@ from gazelle.training.progress import Progress
 from gazelle.training.runs import Run
 from gazelle.training.statistics import EpisodeLog
 from gazelle.training.tables import row_bytes, rows_until
-from gazelle_ros.base.interrupts import StopRequest
+from gazelle_ros.base.interrupts import StopRequest, holding
 from gazelle_ros.base.writing import GrowingFile, write_bytes
 
 _COLUMNS = (
@@ -46,6 +46,10 @@ _COLUMNS = (
     "train/ent_coef",
 )
 _CURVE_POINTS = 200
+_LONG_S = 0.5
+"""Updates that take longer begin with a checkpoint, so that a stop need not wait for their end [s]."""
+_SAVING_SHARE = 0.05
+"""Greatest share of the time that those checkpoints may take."""
 
 
 class StopRequested(Exception):  # noqa: N818  # a signal to the loop, not a fault
@@ -101,8 +105,8 @@ class TrainingCallback(BaseCallback):  # type: ignore[misc]  # untyped base
         self.saved_at = 0
         self.logged_at = 0
         self.evaluation = PeriodicEvaluation(run)
-        self._began = time.monotonic()
-        self._seconds_before = 0.0
+        self._began = self._update_began = time.monotonic()
+        self._saving_s = self._seconds_before = 0.0
 
     def attach(self, learner: Learner) -> None:
         """Set the learner's logger; call after its checkpoint, if any, was read."""
@@ -148,14 +152,25 @@ class TrainingCallback(BaseCallback):  # type: ignore[misc]  # untyped base
         steps = self.model.num_timesteps
         self.progress.update(steps, self.episodes.summary())
         if self.evaluation.due(steps):
+            self._save()  # a stop does not wait for an evaluation: the next run makes it again
+            self._raise_if_asked()
             self._evaluate()
         if steps - self.logged_at >= self.total / _CURVE_POINTS:
             self._log()
         due = steps - self.saved_at >= self.run.config.checkpoint_every
-        if self.stop.is_set() or due:
+        if self.stop.is_set() or due or self._is_slow() or not self.run.checkpoints():
             self._save()
+        self._raise_if_asked()
+        self._update_began = time.monotonic()
+
+    def _raise_if_asked(self) -> None:
         if self.stop.is_set():
             raise StopRequested
+
+    def _is_slow(self) -> bool:
+        """Return whether the last update took so long that saving before each is worth it."""
+        took = time.monotonic() - self._update_began
+        return took > _LONG_S and self._saving_s < _SAVING_SHARE * took
 
     def _on_step(self) -> bool:
         return True
@@ -180,8 +195,10 @@ class TrainingCallback(BaseCallback):  # type: ignore[misc]  # untyped base
         self.logged_at = steps
 
     def _save(self) -> None:
-        state = self.get_state()
-        self.run.add_checkpoint(
-            self.model.num_timesteps, lambda folder: write_checkpoint(folder, self.model, state)
-        )
-        self.saved_at = self.model.num_timesteps
+        began, state = time.monotonic(), self.get_state()
+        with holding():
+            self.run.add_checkpoint(
+                self.model.num_timesteps, lambda folder: write_checkpoint(folder, self.model, state)
+            )
+            self.saved_at = self.model.num_timesteps
+        self._saving_s = time.monotonic() - began

@@ -37,10 +37,12 @@ from gazelle.training.trust import require_trust
 from gazelle.training.user_callbacks import find_callbacks, make_callbacks
 from gazelle.training.vecenv import VectorEnvAdapter
 from gazelle.training.workers.joining import join_workers
-from gazelle_ros.base.interrupts import stopping
+from gazelle_ros.base.interrupts import Interrupted, stopping
 
 _CHECKPOINTS = 10
 _STOPPING = "stopping after this update (Ctrl-C again stops at once) ..."
+_TIMEOUT_S = 1.0
+"""Time for the update that runs when a stop is requested; then what was saved before it counts [s]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -250,7 +252,7 @@ class _Session:
 
     def go(self, run: Run, checkpoint: Path | None = None) -> TrainResult:
         """Train until the total; from the checkpoint if there is one."""
-        with stopping(lambda: self.progress.say(_STOPPING)) as stop:
+        with stopping(lambda: self.progress.say(_STOPPING), _TIMEOUT_S) as stop:
             callback = TrainingCallback(run, self.total, self.episodes, self.progress, stop)
             if checkpoint is not None:
                 extra = read_checkpoint(checkpoint, self.learner)
@@ -264,14 +266,16 @@ class _Session:
             try:
                 interrupted = self._learn(callback, fresh=checkpoint is None)
             finally:
+                stop.over.set()
                 self.progress.close()
                 self.learner.logger.close()
             seconds = time.perf_counter() - start
-        new = self.learner.num_timesteps - before
+        steps = callback.saved_at if interrupted else self.learner.num_timesteps
+        new = steps - before
         period = self.env.control_period
         return TrainResult(
             run=run,
-            steps=self.learner.num_timesteps,
+            steps=steps,
             new_steps=new,
             wall_seconds=seconds,
             sim_seconds=None if period is None else new * period,
@@ -290,6 +294,10 @@ class _Session:
                 left, callback=self.callbacks, log_interval=None, reset_num_timesteps=fresh
             )
         except StopRequested:
+            return True
+        except Interrupted:
+            if not (callback.stop.timed_out and callback.run.checkpoints()):
+                raise
             return True
         except ValueError as error:
             self._check_weights(error)

@@ -20,8 +20,8 @@ from tensorboard.backend.event_processing.event_file_loader import EventFileLoad
 
 from gazelle.errors import FormatError, MissingExtraError, SimulationWarning, TaskError
 from gazelle.training import GoalReward, OffPolicySettings, Recipe, Run, evaluate, resume, train
-from gazelle.training.progress import NoProgress
 from gazelle.training.supported_values import supported_only
+from tests.training.interrupting import StopAt, weights
 
 SMALL = OffPolicySettings(
     buffer_size=2000, batch_size=32, learning_starts=100, target_update_interval=100
@@ -31,27 +31,6 @@ SMALL = OffPolicySettings(
 def off_policy(algo):
     settings = supported_only(algo, SMALL)
     return Recipe(algo=algo, steps=320, num_envs=4, net_arch=(16,), settings=settings)
-
-
-class StopAt(NoProgress):
-    """Presses Ctrl-C after some steps."""
-
-    def __init__(self, steps):
-        self.steps = steps
-        self.said = []
-
-    def update(self, done, summary):
-        if done >= self.steps:
-            self.steps = float("inf")
-            os.kill(os.getpid(), signal.SIGINT)
-
-    def say(self, text):
-        self.said.append(text)
-
-
-def weights(result):
-    file = result.run.newest_checkpoint() / "learner.pt"
-    return torch.load(file, weights_only=True)["modules"]["policy"]
 
 
 def curves(result):
@@ -114,22 +93,6 @@ def test_a_forgetful_environment_resumes_with_a_warning(tmp_path, tiny):
     with pytest.warns(SimulationWarning, match="cannot save its state"):
         second = resume(first.run.folder)
     assert second.steps == tiny.steps
-
-
-@pytest.mark.long
-def test_second_interrupt_stops_at_once_and_leaves_the_handler_alone(tmp_path, tiny):
-    class Impatient(StopAt):
-        def update(self, done, summary):
-            pressed = done >= self.steps
-            super().update(done, summary)
-            if pressed:
-                time.sleep(2.0)  # signals that come together are one
-                os.kill(os.getpid(), signal.SIGINT)
-
-    before = signal.getsignal(signal.SIGINT)
-    with pytest.raises(KeyboardInterrupt):
-        train("test/Corridor-v0", recipe=tiny, out=tmp_path, progress=Impatient(300))
-    assert signal.getsignal(signal.SIGINT) is before
 
 
 @pytest.mark.long

@@ -59,14 +59,23 @@ class StopRequest(threading.Event):
 
     Args:
         action: Called then, on another thread.
+        timeout: Time after which the main thread is interrupted all the same [s].
 
     Attributes:
         signal: The signal that asked; None so far.
+        timeout: As above.
+        timed_out: Whether the main thread was interrupted then.
+        over: Set once the request is of no use any more.
     """
 
-    def __init__(self, action: Callable[[], object] | None = None) -> None:
+    def __init__(
+        self, action: Callable[[], object] | None = None, timeout: float | None = None
+    ) -> None:
         super().__init__()
         self.signal: int | None = None
+        self.timeout = timeout
+        self.timed_out = False
+        self.over = threading.Event()
         self._action = action
 
     def is_set(self) -> bool:
@@ -104,17 +113,26 @@ def end_process(code: int) -> NoReturn:
 
 
 @contextlib.contextmanager
-def stopping(action: Callable[[], object] | None = None) -> Iterator[StopRequest]:
+def stopping(
+    action: Callable[[], object] | None = None, timeout: float | None = None
+) -> Iterator[StopRequest]:
     """Make stop requests set an event instead of interrupting the main thread, while it lasts.
 
     Off the main thread, nothing ever sets it.
 
     Args:
         action: Called when the event is set, on another thread.
+        timeout: Time after which the main thread is interrupted all the same [s]; for ever if None.
+
+    Raises:
+        Interrupted: The timeout passed, or a second request came.
     """
-    request = StopRequest(action)
+    request = StopRequest(action, timeout)
     with _received(request):
-        yield request
+        try:
+            yield request
+        finally:
+            request.over.set()
 
 
 @contextlib.contextmanager
@@ -268,8 +286,11 @@ class _Listener:
     def _on_signal(self, number: int, _frame: FrameType | None) -> None:
         if self._again:
             self._again = False
-            if not _unwinding() and not self.held and self.receivers[-1:] == [None]:
-                raise Interrupted(self._number or number)
+            if not _unwinding() and self.receivers[-1:] in ([None], [self._chosen]):
+                self.interrupted = self._number or number
+                if not self.held:
+                    raise Interrupted(self.interrupted)
+                self.late = True
             return
         now = time.monotonic()
         if now - self._last < _SAME_S:
@@ -294,10 +315,18 @@ class _Listener:
         if byte & _HANDLED:
             if self._chosen is not None:
                 self._chosen.request(byte - _HANDLED)
+                self._interrupt_after_timeout(self._chosen)
             else:
                 self._raise_again()
         elif byte in self._before:
             self._await_handler(byte)
+
+    def _interrupt_after_timeout(self, request: StopRequest) -> None:
+        """Raise `Interrupted` in the main thread if a request leads to nothing within its time."""
+        if request.timeout is None or request.over.wait(request.timeout):
+            return
+        request.timed_out = self._again = True
+        signal.pthread_kill(self._main, signal.SIGINT)
 
     def _await_handler(self, number: int) -> None:
         """Wake the main thread, and end the process if it does not run the handler.
