@@ -13,7 +13,6 @@ from gazelle.geometry.convex_decomposition import ConvexPieces
 from gazelle.geometry.hull import convex_hull
 from gazelle.geometry.mesh_data import MeshData
 from gazelle.geometry.probing import spread
-from gazelle.geometry.ray_hits import SurfaceRays
 from gazelle.geometry.surface import WeldedSurface, clean, components
 
 _WAYS = np.array([[0.577, 0.211, 0.788], [-0.3, 0.9, -0.32], [0.1, -0.5, 0.86]])
@@ -209,7 +208,7 @@ def inside(surface: WeldedSurface, places: Floats) -> Bools:
         sign = 1 if part.volume > 0.0 else -1
         outwards = clean(part.vertices, part.faces[:, ::sign])
         behind = sum(
-            SurfaceRays(outwards).first_hits(places, np.tile(way, (len(places), 1)))[1].astype(int)
+            outwards.rays.first_hits(places, np.tile(way, (len(places), 1)))[1].astype(int)
             for way in _WAYS
         )
         winding += sign * (behind >= 2)

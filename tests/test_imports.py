@@ -76,11 +76,7 @@ MOVEIT = "gazelle.drop_in.moveit"
 HEAVY = {"gymnasium", "mujoco", "mujoco_warp", "stable_baselines3", "torch", "trimesh", "warp"}
 OWNERS = {
     "gymnasium": ("gazelle.drop_in", "gazelle.envs", "gazelle.training"),
-    "mujoco": (
-        "gazelle.engines.mujoco",
-        "gazelle.geometry.bounding_volumes",
-        "gazelle.geometry.ray_hits",
-    ),
+    "mujoco": ("gazelle.engines.mujoco", "gazelle.geometry.bounding_volumes"),
     "mujoco_warp": ("gazelle.engines.mujoco.warp",),
     "pettingzoo": ("gazelle.envs",),
     "stable_baselines3": ("gazelle.drop_in.frobs_rl", "gazelle.training"),

@@ -36,6 +36,8 @@ class AirProbes:
         self.starts = np.searchsorted(row[order], ends).astype(np.int32)
         self.low, self.side, self.cells = low, side, cells
         self.builder = HullBuilder(most)
+        self.rows = np.zeros(most, np.int32)
+        self.box = np.zeros((3, 2), np.intp)
 
     def corners(self, points: Floats) -> Indices | None:
         """Return the rows of the points that are corners of their hull, None if it holds a place.
@@ -45,16 +47,25 @@ class AirProbes:
         Args:
             points: [m], shape (n, 3).
         """
-        cloud = cython.declare(cython.double[:, ::1], points)
-        box = cython.declare(cython.Py_ssize_t[:, ::1], np.zeros((3, 2), np.intp))
-        if not self.builder.build(cloud):
-            return np.arange(len(points))
-        with cython.nogil:
-            found = self.search(cloud, box)
-        return None if found else self.builder.used()
+        count = self.keep(points)
+        return None if count < 0 else np.array(self.rows[:count], np.intp)
 
-    def search(self, points: Floats, box: Indices) -> bool:
+    def keep(self, points: Floats) -> int:
+        """Write the ``rows`` of points that are corners of their hull; return how many these are.
+
+        Returns -1 if it holds a place.
+        """
+        if not self.builder.build(points):
+            for n in range(points.shape[0]):
+                self.rows[n] = n
+            return points.shape[0]
+        if self.search(points):
+            return -1
+        return self.builder.write_corners(points.shape[0], self.rows)
+
+    def search(self, points: Floats) -> bool:
         """Return whether a place is in the hull that was built of these points."""
+        box = self.box
         for axis in range(3):
             least = most = points[0, axis]
             for n in range(1, points.shape[0]):

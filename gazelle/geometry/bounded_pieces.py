@@ -73,7 +73,7 @@ def _distances(bound: float) -> Iterator[tuple[float, int]]:
 
 def _clouds(
     surface: WeldedSurface, number: Indices, solid: Bools, whole: Bools, bound: float
-) -> tuple[list[Floats], list[tuple[int, int]]]:
+) -> tuple[list[Floats], Indices]:
     """Return the points of each convex part and thickened polygon, and which polygons touch."""
     clouds = [
         surface.vertices[np.unique(surface.faces[number == part])]
@@ -81,8 +81,8 @@ def _clouds(
     ]
     rest = ~whole[number]
     if not rest.any():
-        return clouds, []
-    joined = joined_flat(surface.part(rest))
+        return clouds, np.zeros((0, 2), np.intp)
+    joined = joined_flat(surface if rest.all() else surface.part(rest))
     for share, count in ((_FINE, _MANY_POLYGONS), (_COARSE, _TOO_MANY_POLYGONS)):
         if joined.count > count:
             joined.join(share * bound, notches=True)
@@ -92,7 +92,7 @@ def _clouds(
     edges = np.flatnonzero(twins >= 0)
     ends = np.sort(np.stack([row[edges // 3], row[twins[edges] // 3]], axis=1), axis=1)
     ends = np.unique(ends[(ends[:, 0] >= 0) & (ends[:, 0] != ends[:, 1])], axis=0)
-    return clouds + thick, [(one, other) for one, other in ends.tolist()]
+    return clouds + thick, ends
 
 
 def _thickened(joined: Polygons, solid: Bools, skin: float) -> tuple[list[Floats], Indices]:
@@ -105,11 +105,12 @@ def _thickened(joined: Polygons, solid: Bools, skin: float) -> tuple[list[Floats
     real = np.flatnonzero(widths_of(surface, rims) > ROUNDING * surface.size)
     row = np.full(len(rims.sizes), -1)
     row[real] = np.arange(len(real))
-    order = np.argsort(rims.owners, kind="stable")
-    starts = np.searchsorted(rims.owners[order], np.arange(len(rims.sizes) + 1))
-    clouds = []
-    for polygon in real.tolist():
-        faces = order[starts[polygon] : starts[polygon + 1]]
-        points = surface.vertices[np.unique(surface.faces[faces])]
-        clouds.append(np.concatenate([points, points - thickness[polygon]]))
+    corners = np.repeat(rims.owners, 3) * len(surface.vertices) + surface.faces.ravel()
+    owners, vertices = np.divmod(np.unique(corners), len(surface.vertices))
+    kept = row[owners] >= 0
+    owners, points = owners[kept], surface.vertices[vertices[kept]]
+    both = np.stack([points, points - thickness[owners]])
+    ends = np.searchsorted(owners, real, side="right")[:-1]
+    fronts, backs = (np.split(side, ends) for side in both)
+    clouds = [np.concatenate(pair) for pair in zip(fronts, backs, strict=True)]
     return clouds, row[rims.owners]

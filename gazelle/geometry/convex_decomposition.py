@@ -23,7 +23,6 @@ from gazelle.geometry.hull import Hull, Solid, convex_hull, spread_directions
 from gazelle.geometry.mesh_data import MeshData
 from gazelle.geometry.patches import joined_flat, thick_patches
 from gazelle.geometry.probing import spread
-from gazelle.geometry.ray_hits import SurfaceRays
 from gazelle.geometry.surface import WeldedSurface, clean, components
 
 CACHED = 256
@@ -248,7 +247,7 @@ def _spans(surface: WeldedSurface, hull: Hull, tolerance: float) -> bool:
     """
     places, rows = spread(_hull_surface(surface, hull), surface.size / _LOOKS_ALONG)
     ways = hull.normals[rows]
-    below, _ = SurfaceRays(surface).first_hits(places + tolerance * ways, -ways)
+    below, _ = surface.rays.first_hits(places + tolerance * ways, -ways)
     return bool((below > 2.01 * tolerance).any())
 
 
@@ -262,7 +261,7 @@ def _hull_surface(surface: WeldedSurface, hull: Hull) -> WeldedSurface:
 
 def _below(surface: WeldedSurface, hull: Hull, points: Floats, ways: Floats) -> Floats:
     """Return how far the hull of a surface is from points along ways [m]; infinite if on it."""
-    return SurfaceRays(_hull_surface(surface, hull)).first_hits(points, ways)[0]
+    return _hull_surface(surface, hull).rays.first_hits(points, ways)[0]
 
 
 def _is_deep(hull: Hull, points: Floats, tolerance: float) -> bool:

@@ -8,7 +8,6 @@ import numpy as np
 
 from gazelle.array_types import Floats
 from gazelle.geometry.mesh_data import MeshData
-from gazelle.geometry.ray_hits import SurfaceRays
 from gazelle.geometry.surface import WeldedSurface, clean
 
 FEWEST = 4000
@@ -64,9 +63,7 @@ def ground_of(mesh: MeshData) -> Ground | None:
         ],
         axis=1,
     )
-    distance, _ = SurfaceRays(surface).first_hits(
-        start, np.broadcast_to([0.0, 0.0, -1.0], start.shape)
-    )
+    distance, _ = surface.rays.first_hits(start, np.broadcast_to([0.0, 0.0, -1.0], start.shape))
     if not np.isfinite(distance).all():
         return None
     heights = (start[:, 2] - distance).reshape(rows, columns)

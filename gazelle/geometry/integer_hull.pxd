@@ -13,6 +13,8 @@ cdef class HullBuilder:
 
     @cython.locals(count=Py_ssize_t, face=int)
     cdef bint build(self, double[:, ::1] points) noexcept nogil
+    @cython.locals(used=int[::1], found=int, i=int, face=int)
+    cdef int write_corners(self, int count, int[::1] rows) noexcept nogil
     @cython.locals(count=Py_ssize_t, i=Py_ssize_t, axis=Py_ssize_t, low=double, high=double,
                    span=double, steps=double)
     cdef void put_on_grid(self, double[:, ::1] points) noexcept nogil

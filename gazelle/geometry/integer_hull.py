@@ -14,7 +14,7 @@ from __future__ import annotations
 import cython
 import numpy as np
 
-from gazelle.array_types import Floats, Indices
+from gazelle.array_types import Floats, Indices, Ints32
 
 STEPS = cython.declare(cython.double, 2.0**19 - 1.0)
 
@@ -73,12 +73,6 @@ class HullBuilder:
         rows: Indices = corners[corners[:, 0] >= 0].astype(np.intp)
         return rows
 
-    def used(self) -> Indices:
-        """Return the rows of the points that are corners of the last hull, rising, shape (n,)."""
-        corners = np.asarray(self.corner)[: self.faces]
-        rows: Indices = np.unique(corners[corners[:, 0] >= 0]).astype(np.intp)
-        return rows
-
     def normals(self) -> Floats:
         """Return unit vectors out of the faces of the last hull, shape (m, 3)."""
         rows = np.asarray(self.corner)[: self.faces, 0] >= 0
@@ -99,6 +93,29 @@ class HullBuilder:
             if self.corner[face, 0] >= 0 and self.first[face] >= 0:
                 self.add(self.farthest(face), face)
         return True
+
+    def write_corners(self, count: int, rows: Ints32) -> int:
+        """Write the rows of the points that are corners of the last hull, rising.
+
+        Args:
+            count: Points that it was built of.
+            rows: Where they are written.
+
+        Returns:
+            The number of corners.
+        """
+        used, found = self.after, 0
+        for i in range(count):
+            used[i] = 0
+        for face in range(self.faces):
+            if self.corner[face, 0] >= 0:
+                for i in range(3):
+                    used[self.corner[face, i]] = 1
+        for i in range(count):
+            if used[i]:
+                rows[found] = i
+                found += 1
+        return found
 
     def put_on_grid(self, points: Floats) -> None:
         """Store the points in steps from the least corner of their box."""

@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 from gazelle.array_types import Floats
 from gazelle.geometry.flat_polygons import Polygons, Rims
 from gazelle.geometry.hull import Solid
-from gazelle.geometry.ray_hits import SurfaceRays
 from gazelle.geometry.surface import WeldedSurface
 
 FINE = 7e-3
@@ -140,7 +139,7 @@ def depths_of(surface: WeldedSurface, rims: Rims, closed: NDArray[np.bool_], ski
     inset = corners + _INSET * (middles[of_rim[some]] - corners)
     origins = np.concatenate([surface.vertices[surface.faces[faces]].mean(axis=1), inset])
     rows = np.concatenate([rims.owners[faces], of_rim[some]])
-    distance, leaves = SurfaceRays(surface).first_hits(origins, -rims.normals[rows])
+    distance, leaves = surface.rays.first_hits(origins, -rims.normals[rows])
     body = closed[rims.faces][rows] & leaves
     room = np.minimum(distance / 2.0, np.where(body, _DEEPEST, skin))
     depths = np.full(count, _DEEPEST)

@@ -11,7 +11,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from gazelle.array_types import Bools, Floats, Indices
-from gazelle.geometry.ray_hits import SurfaceRays
 from gazelle.geometry.surface import WeldedSurface
 
 ROUNDING = 1e-6
@@ -60,7 +59,6 @@ class AirBeside:
 
     def __init__(self, surface: WeldedSurface, closed: Bools, skin: float) -> None:
         self._surface, self._closed, self._skin = surface, closed, skin
-        self._rays = SurfaceRays(surface)
         corners = surface.vertices[surface.faces]
         inset = corners + _INSET * (corners.mean(axis=1)[:, None] - corners)
         faces = np.repeat(np.arange(len(surface.faces)), 3)
@@ -93,7 +91,7 @@ class AirBeside:
 
     def _cast(self, feet: _Feet) -> _Rays:
         """Cast rays from places on the surface along their ways."""
-        return _Rays(feet, *self._rays.first_hits(feet.points, feet.ways))
+        return _Rays(feet, *self._surface.rays.first_hits(feet.points, feet.ways))
 
 
 @dataclass(frozen=True, slots=True)

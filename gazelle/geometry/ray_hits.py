@@ -1,51 +1,57 @@
-"""Rays, which MuJoCo computes with its bounding volumes.
-
-This is all that files need of the engine's library; they know nothing of the engine.
-"""
+# cython: infer_types=True, annotation_typing=False
+# mypy: disable-error-code="no-any-return"
+"""Rays against triangles, in a tree of boxes."""
 
 from __future__ import annotations
 
+import cython
 import numpy as np
-from numpy.typing import NDArray
 
-from gazelle.array_types import Floats
-from gazelle.geometry.bounding_volumes import tighten_hierarchies
-from gazelle.geometry.surface import WeldedSurface
+from gazelle.array_types import Bools, Floats, Indices, Ints32
+from gazelle.native.box_trees import BoxTree
 
-_FEWEST = 4
-"""Vertices that MuJoCo wants a mesh to have."""
+_START = 1e-5
+"""Distance from its origin at which a ray begins, as a share of the size."""
+_ASIDE = np.array([0.613e-6, 0.371e-6, 0.697e-6])
+"""Offset of rays, likewise: what meets an edge exactly may pass between its two triangles."""
+_MARGIN = 1e-9
+"""Width of boxes beyond their triangles, likewise: rounding must not miss what is flat."""
+_WAITING = 128
+"""Boxes that may wait for a ray: more than there are levels in a tree."""
+_TIE = 1e-8
+"""Difference of distances that counts as none, likewise."""
+_STEEP = cython.declare(cython.double, 1e300)
+"""Inverse of what is nearly 0."""
+_FAR = cython.declare(cython.double, 1e300)
+"""Distance of nothing yet."""
+_ENDLESS = cython.declare(cython.double, np.inf)
 
 
-class SurfaceRays:
-    """Rays against the triangles of a surface, which are met from both sides.
+@cython.cclass
+class TriangleRays:
+    """Rays against triangles, which are met from both sides.
 
     Args:
-        surface: Any triangles, at least one.
+        vertices: [m], shape (n, 3).
+        faces: Corners, shape (m, 3), at least one.
+        size: Diagonal of the box around them [m].
     """
 
-    def __init__(self, surface: WeldedSurface) -> None:
-        import mujoco
-        from mujoco.batch import Batch
+    def __init__(self, vertices: Floats, faces: Indices, size: float) -> None:
+        corners = vertices[faces]
+        low, high = corners.min(axis=1), corners.max(axis=1)
+        half = (high - low) / 2.0 + _MARGIN * size
+        tree = BoxTree(np.concatenate([(low + high) / 2.0, half], axis=1))
+        middle, half = tree.bounds[:, :3], tree.bounds[:, 3:]
+        self.bounds = np.concatenate([middle - half, middle + half], axis=1)
+        self.children, self.leaf = tree.children, tree.leaf
+        edges = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+        self.triangles = np.concatenate([corners[:, 0], *edges], axis=1)
+        self.size, self.tie = size, _TIE * size
+        self.waiting, self.entry = np.zeros(_WAITING, np.int32), np.zeros(_WAITING)
+        self.ray = np.zeros(9)  # origin, direction, and the inverse of that
 
-        spec = mujoco.MjSpec()
-        self._scale = 1.0 / surface.size  # what is tiny has no area in MuJoCo
-        lacking = max(0, _FEWEST - len(surface.vertices))
-        vertices = np.concatenate([surface.vertices, surface.vertices[:1].repeat(lacking, axis=0)])
-        self._middle = vertices.mean(axis=0)
-        spec.add_mesh(
-            name="mesh",
-            uservert=((vertices - self._middle) * self._scale).ravel(),
-            userface=surface.faces.astype(np.int32).ravel(),
-            inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL,
-        )
-        spec.worldbody.add_geom(
-            type=mujoco.mjtGeom.mjGEOM_MESH, meshname="mesh", contype=0, conaffinity=0
-        )
-        model = spec.compile()
-        tighten_hierarchies(model)
-        self._batch = Batch(model, 1)
-
-    def first_hits(self, origins: Floats, directions: Floats) -> tuple[Floats, NDArray[np.bool_]]:
+    def first_hits(self, origins: Floats, directions: Floats) -> tuple[Floats, Bools]:
         """Return distance along rays to the first triangle, and whether they come from behind it.
 
         Args:
@@ -57,10 +63,90 @@ class SurfaceRays:
             Distances [m], infinite where there is nothing, and whether the triangle looks away,
             both of shape (n,).
         """
-        # What meets an edge exactly would pass between its two triangles.
-        nudge = 1e-5 * directions + 1e-6 * np.array([0.613, 0.371, 0.697])
-        start = (origins - self._middle) * self._scale + nudge
-        distance, _, normal = self._batch.ray(start, directions, normal=True)
-        met = distance[0] >= 0.0
-        found = np.where(met, (distance[0] + 1e-5) / self._scale, np.inf)
-        return found, met & (np.einsum("ij,ij->i", normal[0], directions) > 0.0)
+        start = origins + self.size * (_START * directions + _ASIDE)
+        distance, face = np.full(len(start), np.inf), np.full(len(start), -1, np.int32)
+        self.cast(np.ascontiguousarray(start), np.array(directions, order="C"), distance, face)
+        met = face >= 0
+        edges = np.asarray(self.triangles)[face, 3:]
+        outwards = np.einsum("ij,ij->i", np.cross(edges[:, :3], edges[:, 3:]), directions)
+        return distance + _START * self.size, np.asarray(met & (outwards > 0.0))
+
+    def cast(self, origins: Floats, directions: Floats, distance: Floats, face: Ints32) -> None:
+        """Write the distance of the first triangle along each ray, and its row."""
+        ray = self.ray
+        for n in range(origins.shape[0]):
+            for axis in range(3):
+                way = directions[n, axis]
+                ray[axis], ray[axis + 3] = origins[n, axis], way
+                ray[axis + 6] = 1.0 / way if way > 1e-300 or way < -1e-300 else _STEEP
+            face[n] = self.first()
+            if face[n] >= 0:
+                distance[n] = self.nearest
+
+    def first(self) -> int:
+        """Return the first triangle that the ray meets; -1 if there is none.
+
+        Its distance is ``nearest``. Where a body begins at another one's end, it is that end.
+        """
+        self.nearest, found = _FAR, -1
+        node, count = 0, 0
+        while True:
+            if self.leaf[node] >= 0:
+                if self.meets(self.leaf[node]):
+                    found = self.leaf[node]
+            else:
+                one, other = self.children[node, 0], self.children[node, 1]
+                near, far = self.enters(one), self.enters(other)
+                if far < near:
+                    one, other, near, far = other, one, far, near
+                if far <= self.nearest + self.tie:
+                    self.waiting[count], self.entry[count] = other, far
+                    count += 1
+                if near <= self.nearest + self.tie:
+                    node = one
+                    continue
+            while count > 0 and self.entry[count - 1] > self.nearest + self.tie:
+                count -= 1
+            if count == 0:
+                return found
+            count -= 1
+            node = self.waiting[count]
+
+    def enters(self, node: int) -> float:
+        """Return where the ray enters the box of a node; endless if it does not."""
+        begin, end = 0.0, _ENDLESS
+        for axis in range(3):
+            one = (self.bounds[node, axis] - self.ray[axis]) * self.ray[axis + 6]
+            other = (self.bounds[node, axis + 3] - self.ray[axis]) * self.ray[axis + 6]
+            begin = max(begin, min(one, other))
+            end = min(end, max(one, other))
+        return begin if begin <= end else _ENDLESS
+
+    def meets(self, face: int) -> bool:
+        """Return whether a triangle is met before the nearest so far; it is the nearest then.
+
+        After Möller and Trumbore, "Fast, minimum storage ray-triangle intersection", Journal of
+        Graphics Tools 2 (1997).
+        """
+        ray, t = self.ray, self.triangles
+        px = ray[4] * t[face, 8] - ray[5] * t[face, 7]
+        py = ray[5] * t[face, 6] - ray[3] * t[face, 8]
+        pz = ray[3] * t[face, 7] - ray[4] * t[face, 6]
+        volume = t[face, 3] * px + t[face, 4] * py + t[face, 5] * pz
+        if volume == 0.0:
+            return False
+        sx, sy, sz = ray[0] - t[face, 0], ray[1] - t[face, 1], ray[2] - t[face, 2]
+        u = (sx * px + sy * py + sz * pz) / volume
+        if u < 0.0 or u > 1.0:
+            return False
+        qx = sy * t[face, 5] - sz * t[face, 4]
+        qy = sz * t[face, 3] - sx * t[face, 5]
+        qz = sx * t[face, 4] - sy * t[face, 3]
+        v = (ray[3] * qx + ray[4] * qy + ray[5] * qz) / volume
+        if v < 0.0 or u + v > 1.0:
+            return False
+        away = (t[face, 6] * qx + t[face, 7] * qy + t[face, 8] * qz) / volume
+        if away < 0.0 or away > self.nearest + (self.tie if volume < 0.0 else -self.tie):
+            return False
+        self.nearest = min(self.nearest, away)
+        return True

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Indices
+from gazelle.geometry.ray_hits import TriangleRays
 from gazelle.geometry.slivers import flip_slivers, half_edge_twins
 
 _BITS = 21
@@ -46,6 +47,11 @@ class WeldedSurface:
         Half-edge 3 f + i of face f runs from its corner i to the next.
         """
         return half_edge_twins(self.faces, len(self.vertices))
+
+    @cached_property
+    def rays(self) -> TriangleRays:
+        """Rays against the faces, of which there is at least one."""
+        return TriangleRays(self.vertices, self.faces, self.size)
 
     @property
     def volume(self) -> float:

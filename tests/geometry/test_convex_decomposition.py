@@ -16,7 +16,6 @@ from gazelle.geometry.convex_decomposition import decompose
 from gazelle.geometry.hull import convex_hull, hulls_of
 from gazelle.geometry.mesh_data import MeshData
 from gazelle.geometry.polygons import planar_area, planar_hull
-from gazelle.geometry.ray_hits import SurfaceRays
 from gazelle.geometry.surface import clean, components
 
 
@@ -281,7 +280,7 @@ def test_surfaces_are_welded_and_cleaned():
     assert surface.volume == pytest.approx(1.0)
     assert components(surface).max() == 0
     starts = np.array([[0.0, 0.1, 0.2], [2, 0, 0], [-2, 0.1, 0.2]])
-    hits, behind = SurfaceRays(surface).first_hits(starts, np.array([[1.0, 0, 0]] * 3))
+    hits, behind = surface.rays.first_hits(starts, np.array([[1.0, 0, 0]] * 3))
     # Rays start 3 um beside where they should, so that none passes along an edge.
     np.testing.assert_allclose(hits, [0.5, np.inf, 1.5], atol=3e-6)
     assert behind.tolist() == [True, False, False]

@@ -107,7 +107,6 @@ def _reach_from(sensor: Sensor, collision: Collision) -> float | None:
 def _reach_in_mesh(shape: Mesh, place: Pose) -> float | None:
     """Return the horizontal reach of the mesh around a sensor; None where it is open to a side."""
     from gazelle.formats.mesh import load_mesh
-    from gazelle.geometry.ray_hits import SurfaceRays
     from gazelle.geometry.surface import clean
 
     if shape.path is None:
@@ -123,7 +122,7 @@ def _reach_in_mesh(shape: Mesh, place: Pose) -> float | None:
     level = np.stack([np.cos(angles), np.sin(angles), np.zeros(_LOOKS)], axis=1)
     directions = level @ place.matrix()[:3, :3].T
     origins = np.tile(place.position, (_LOOKS, 1))
-    distance, _ = SurfaceRays(clean(data.vertices, data.faces)).first_hits(origins, directions)
+    distance, _ = clean(data.vertices, data.faces).rays.first_hits(origins, directions)
     farthest = float(distance.max())
     return farthest if math.isfinite(farthest) else None
 
