@@ -15,7 +15,7 @@ from gazelle.array_types import Bools, Floats, Indices
 from gazelle.geometry.flat_polygons import Polygons
 from gazelle.geometry.hull import Solid, hulls_of
 from gazelle.geometry.merging import PieceMerger
-from gazelle.geometry.patches import depths_of, joined_flat, skin_of, widths_of
+from gazelle.geometry.patches import behind_rims, joined_flat, skin_of, widths_of
 from gazelle.geometry.probing import ROUNDING, AirBeside
 from gazelle.geometry.surface import WeldedSurface
 
@@ -75,11 +75,7 @@ def _clouds(
     surface: WeldedSurface, number: Indices, solid: Bools, whole: Bools, bound: float
 ) -> tuple[list[Floats], Indices]:
     """Return the points of each convex part and thickened polygon, and which polygons touch."""
-    clouds = [
-        surface.vertices[np.unique(surface.faces[number == part])]
-        for part in np.flatnonzero(whole).tolist()
-    ]
-    rest = ~whole[number]
+    clouds, rest = _convex_clouds(surface, number, whole), ~whole[number]
     if not rest.any():
         return clouds, np.zeros((0, 2), np.intp)
     joined = joined_flat(surface if rest.all() else surface.part(rest))
@@ -95,13 +91,22 @@ def _clouds(
     return clouds + thick, ends
 
 
+def _convex_clouds(surface: WeldedSurface, number: Indices, whole: Bools) -> list[Floats]:
+    """Return the corners of each convex part."""
+    faces = np.flatnonzero(whole[number])
+    order = faces[np.argsort(number[faces], kind="stable")]
+    ends = np.flatnonzero(np.diff(number[order], append=-1)) + 1
+    rows = np.split(surface.faces[order], ends[:-1]) if len(order) else []
+    return [surface.vertices[np.unique(corners)] for corners in rows]
+
+
 def _thickened(joined: Polygons, solid: Bools, skin: float) -> tuple[list[Floats], Indices]:
     """Return the points of each polygon and those behind it, and the row of each triangle.
 
     Polygons without a width are left out; their triangles have the row -1.
     """
     surface, rims = joined.surface, joined.rims()
-    thickness = depths_of(surface, rims, solid, skin)[:, None] * rims.normals
+    behind = np.split(behind_rims(surface, rims, solid, skin), np.cumsum(rims.sizes)[:-1])
     real = np.flatnonzero(widths_of(surface, rims) > ROUNDING * surface.size)
     row = np.full(len(rims.sizes), -1)
     row[real] = np.arange(len(real))
@@ -109,8 +114,9 @@ def _thickened(joined: Polygons, solid: Bools, skin: float) -> tuple[list[Floats
     owners, vertices = np.divmod(np.unique(corners), len(surface.vertices))
     kept = row[owners] >= 0
     owners, points = owners[kept], surface.vertices[vertices[kept]]
-    both = np.stack([points, points - thickness[owners]])
     ends = np.searchsorted(owners, real, side="right")[:-1]
-    fronts, backs = (np.split(side, ends) for side in both)
-    clouds = [np.concatenate(pair) for pair in zip(fronts, backs, strict=True)]
+    clouds = [
+        np.concatenate([front, behind[polygon]])
+        for front, polygon in zip(np.split(points, ends), real.tolist(), strict=True)
+    ]
     return clouds, row[rims.owners]

@@ -23,7 +23,7 @@ from gazelle.geometry.hull import Hull, Solid, convex_hull, spread_directions
 from gazelle.geometry.mesh_data import MeshData
 from gazelle.geometry.patches import joined_flat, thick_patches
 from gazelle.geometry.probing import spread
-from gazelle.geometry.surface import WeldedSurface, clean, components
+from gazelle.geometry.surface import WeldedSurface, clean, closed_parts, components, volumes_of
 
 CACHED = 256
 PROMISED = 0.01
@@ -131,8 +131,8 @@ def _cut(surface: WeldedSurface, *, static: bool) -> tuple[list[Solid], bool, fl
     if not len(surface.faces):
         return [], False, 0.0
     number = components(surface)
-    closed = np.bincount(number, (surface.twins < 0).reshape(-1, 3).any(axis=1)) == 0
-    volume = _volumes(surface, number)
+    closed = closed_parts(surface, number)
+    volume = volumes_of(surface, number)
     cavities, around = _cavities(surface, number, closed & (volume < 0.0))
     if not static:  # what looks inwards and moves is no room
         inverted = closed & (volume < 0.0) & ~cavities
@@ -175,14 +175,6 @@ def _turned(surface: WeldedSurface, rows: NDArray[np.bool_]) -> WeldedSurface:
     return WeldedSurface(surface.vertices, faces, normals, surface.areas)
 
 
-def _volumes(surface: WeldedSurface, number: NDArray[np.intp]) -> Floats:
-    """Return the signed volume of each part [m³]; negative if faces look inwards."""
-    corners = surface.vertices[surface.faces] - surface.vertices.mean(axis=0)
-    each = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6.0
-    volumes: Floats = np.bincount(number, each).astype(np.float64)
-    return volumes
-
-
 def _convex_parts(surface: WeldedSurface, number: NDArray[np.intp]) -> NDArray[np.bool_]:
     """Return a mask of the parts with all edges bent the same way.
 
@@ -195,7 +187,7 @@ def _convex_parts(surface: WeldedSurface, number: NDArray[np.intp]) -> NDArray[n
     far = surface.vertices[surface.faces.ravel()[there - there % 3 + (there + 2) % 3]]
     base = surface.vertices[surface.faces.ravel()[edges]]
     height = np.einsum("ij,ij->i", far - base, surface.normals[here])
-    sign = np.where(_volumes(surface, number) < 0.0, -1.0, 1.0)
+    sign = np.where(volumes_of(surface, number) < 0.0, -1.0, 1.0)
     bent = height * sign[number[here]] > _ROUNDING * surface.size
     reflex = np.bincount(number[here], bent, minlength=int(number.max()) + 1)
     return np.asarray(reflex == 0)

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from gazelle.array_types import Floats
 from gazelle.geometry.flat_polygons import Polygons, Rims
 from gazelle.geometry.hull import Solid
+from gazelle.geometry.probing import spread
 from gazelle.geometry.surface import WeldedSurface
 
 FINE = 7e-3
@@ -34,13 +35,14 @@ _FIRST = (5e-4, 2e-3)
 """Tolerances that are tried first [m]."""
 _SKIN = (1e-3, 1e-2)
 """Least and greatest thickness of what is open behind [m]."""
-_THINNEST = 2e-4
-"""Least thickness of anything [m]."""
+_THINNEST = (2e-4, 1e-3)
+"""Least thickness of anything: a length [m], or a share of the size if that is less."""
 _DEEPEST = 0.05
 """Thickness up to which a body is filled behind its surface [m]."""
-_INSET = 0.02
-"""Distance from a corner at which its thickness is measured, as a share of the way to the middle."""
-_MOST_RAYS = 20_000
+_INSET, _BESIDE = 0.02, 0.0005
+"""Distances from a corner at which its thickness is measured, as shares of the way to the middle."""
+_RAYS = 20_000
+"""Rays over all of a surface that measure thickness, about, and those beside its corners."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,11 +81,11 @@ def thick_patches(joined: Polygons, closed: NDArray[np.bool_]) -> Patches:
             joined.join(tolerance, notches=True)
             gap = math.hypot(tolerance, tolerance)  # across the plane, and in a notch
     rims = joined.rims()
-    depths = depths_of(surface, rims, closed, skin_of(surface))
-    corners = np.split(surface.vertices[rims.vertices], np.cumsum(rims.sizes)[:-1])
+    ends = np.cumsum(rims.sizes)[:-1]
+    corners = np.split(surface.vertices[rims.vertices], ends)
+    behind = np.split(behind_rims(surface, rims, closed, skin_of(surface)), ends)
     wide = widths_of(surface, rims) > _ROUNDING * surface.size  # what is not has no hull
-    thickness = depths[:, None] * rims.normals
-    solids = [prism(corners[row], thickness[row]) for row in np.flatnonzero(wide).tolist()]
+    solids = [frustum(corners[row], behind[row]) for row in np.flatnonzero(wide).tolist()]
     return Patches(solids, gap)
 
 
@@ -113,8 +115,12 @@ def skin_of(surface: WeldedSurface) -> float:
     return float(np.clip(0.01 * surface.size, *_SKIN))
 
 
-def depths_of(surface: WeldedSurface, rims: Rims, closed: NDArray[np.bool_], skin: float) -> Floats:
-    """Return the thickness of the solid behind each polygon [m], shape (k,).
+def behind_rims(
+    surface: WeldedSurface, rims: Rims, closed: NDArray[np.bool_], skin: float
+) -> Floats:
+    """Return a place behind each corner of polygons, within the body, shape (n, 3).
+
+    Polygons of closed bodies are narrower behind at sharp edges, so that they stay within.
 
     Args:
         surface: Surface of the polygons.
@@ -122,30 +128,35 @@ def depths_of(surface: WeldedSurface, rims: Rims, closed: NDArray[np.bool_], ski
         closed: Whether each triangle belongs to the surface of a closed body, shape (m,).
         skin: Thickness of what is open behind, at most [m].
     """
-    faces = np.arange(0, len(surface.faces), 1 + len(surface.faces) // _MOST_RAYS)
-    of_rim, count = rims.rows, len(rims.sizes)
-    middles = (
-        np.stack(
-            [
-                np.bincount(of_rim, surface.vertices[rims.vertices, axis], count)
-                for axis in range(3)
-            ],
-            axis=1,
-        )
-        / np.maximum(rims.sizes, 1)[:, None]
-    )
-    some = np.arange(0, len(of_rim), 1 + len(of_rim) // _MOST_RAYS)
-    corners = surface.vertices[rims.vertices[some]]
-    inset = corners + _INSET * (middles[of_rim[some]] - corners)
-    origins = np.concatenate([surface.vertices[surface.faces[faces]].mean(axis=1), inset])
-    rows = np.concatenate([rims.owners[faces], of_rim[some]])
-    distance, leaves = surface.rays.first_hits(origins, -rims.normals[rows])
-    body = closed[rims.faces][rows] & leaves
-    room = np.minimum(distance / 2.0, np.where(body, _DEEPEST, skin))
+    corners, rows, count = surface.vertices[rims.vertices], rims.rows, len(rims.sizes)
+    sums = [np.bincount(rows, corners[:, axis], count) for axis in range(3)]
+    inwards = (np.stack(sums, axis=1) / np.maximum(rims.sizes, 1)[:, None])[rows] - corners
+    inset = corners + _INSET * inwards
+    some = np.arange(0, len(rows), 1 + len(rows) // _RAYS)
+    over, owners = _over_polygons(surface, rims)
+    origins = np.concatenate([over, inset[some], (corners + _BESIDE * inwards)[some]])
+    owners = np.concatenate([owners, rows[some], rows[some]])
+    distance, leaves = surface.rays.first_hits(origins, -rims.normals[owners])
+    solid = closed[rims.faces]
+    room = np.minimum(distance / 2.0, np.where(solid[owners] & leaves, _DEEPEST, skin))
+    measured = len(owners) - len(some)
     depths = np.full(count, _DEEPEST)
-    np.minimum.at(depths, rows, room)
-    thickness: Floats = np.maximum(depths, min(_THINNEST, skin))
-    return thickness
+    np.minimum.at(depths, owners[:measured], room[:measured])
+    depths = np.maximum(depths, min(_THINNEST[0], _THINNEST[1] * surface.size))
+    straight = ~solid[rows]
+    straight[some] |= room[measured:] >= depths[rows[some]]
+    upper = np.where(straight[:, None], corners, inset)
+    behind: Floats = upper - depths[rows, None] * rims.normals[rows]
+    return behind
+
+
+def _over_polygons(surface: WeldedSurface, rims: Rims) -> tuple[Floats, NDArray[np.intp]]:
+    """Return places all over a surface, some in each polygon, and their polygons."""
+    places, faces = spread(surface, math.sqrt(float(surface.areas.sum()) / _RAYS))
+    owners = rims.owners[faces]
+    rows = np.arange(0, len(owners), 1 + len(owners) // (2 * _RAYS))
+    rows = np.union1d(rows, np.unique(owners, return_index=True)[1])
+    return places[rows], owners[rows]
 
 
 def prism(rim: Floats, thickness: Floats) -> Solid:
@@ -153,7 +164,15 @@ def prism(rim: Floats, thickness: Floats) -> Solid:
 
     The thickness is a vector that points out of the polygon [m].
     """
-    return np.concatenate([rim, rim - thickness]), _prism_faces(len(rim))
+    return frustum(rim, rim - thickness)
+
+
+def frustum(rim: Floats, behind: Floats) -> Solid:
+    """Return the body between a convex polygon, counter-clockwise from outside, and one behind it.
+
+    Both have as many corners, shape (n, 3).
+    """
+    return np.concatenate([rim, behind]), _prism_faces(len(rim))
 
 
 @lru_cache(maxsize=256)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from gazelle.array_types import Bools, Floats, Indices
+from gazelle.geometry.half_edges import half_edge_twins, half_edges
 
 _ROUNDS = 20
 """Rounds of flips; each corner of several on one line takes one."""
@@ -17,7 +18,7 @@ _ROUNDS = 20
 def flip_slivers(points: Floats, faces: Indices, width: float) -> Indices:
     """Return triangles of the same surface, fewer of which are narrower than a width.
 
-    Triangles that share their longest edge with none, or with several, stay.
+    Triangles that share their longest edge with none stay.
 
     Args:
         points: [m], shape (n, 3).
@@ -30,7 +31,7 @@ def flip_slivers(points: Floats, faces: Indices, width: float) -> Indices:
         slivers = np.flatnonzero(heights <= width)
         if not len(slivers):
             break
-        twins = half_edge_twins(faces, len(points))
+        twins = half_edge_twins(points, faces)
         back = twins[3 * slivers + longest[slivers]]
         slivers, back = slivers[back >= 0], back[back >= 0]
         if not _flip(points, faces, slivers, longest[slivers], back, width):
@@ -59,7 +60,7 @@ def _flip(
     along = np.linalg.norm(points[b] - points[a], axis=1)
     ends = np.linalg.norm(points[np.stack([a, a, b, b])] - points[np.stack([c, d, c, d])], axis=2)
     shorter = (behind <= width) & (ends.max(axis=0) < along)
-    edges = np.sort(_edges(faces), axis=1)
+    edges = np.sort(half_edges(faces), axis=1)
     taken = _among(np.sort(np.stack([c, d], axis=1), axis=1), edges, len(points))
     better = (least > np.minimum(before, behind)) | shorter
     rows = np.flatnonzero(better & (c != d) & ~taken)
@@ -87,36 +88,7 @@ def _heights(points: Floats, faces: Indices) -> tuple[Floats, Indices]:
     return doubled / np.maximum(lengths.max(axis=1), 1e-300), longest
 
 
-def _edges(faces: Indices) -> Indices:
-    """Return tail and head of each half-edge, shape (3 m, 2)."""
-    return np.stack([faces.ravel(), np.roll(faces, -1, axis=1).ravel()], axis=1)
-
-
 def _among(edges: Indices, others: Indices, count: int) -> Bools:
     """Return which edges are among others."""
     ours, theirs = (rows[:, 0] * np.int64(count) + rows[:, 1] for rows in (edges, others))
     return np.asarray(np.isin(ours, theirs))
-
-
-def half_edge_twins(faces: Indices, count: int) -> Indices:
-    """Return the half-edge that runs back along each; -1 if there is none, or several.
-
-    Half-edge 3 f + i of face f runs from its corner i to the next.
-
-    Args:
-        faces: Corners, shape (m, 3).
-        count: Vertices that there are.
-    """
-    edges = _edges(faces)
-    forward = edges[:, 0] * np.int64(count) + edges[:, 1]
-    backward = edges[:, 1] * np.int64(count) + edges[:, 0]
-    order = np.argsort(forward, kind="stable")
-    keys = forward[order]
-    place = np.searchsorted(keys, backward)
-    place[place == len(keys)] = 0
-    single = np.ones(len(keys), bool)
-    single[1:] &= keys[1:] != keys[:-1]
-    single[:-1] &= keys[1:] != keys[:-1]
-    found = np.where((keys[place] == backward) & single[place], order[place], -1)
-    found[order[~single]] = -1
-    return found.astype(np.intp)

@@ -8,14 +8,17 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.array_types import Floats, Indices
+from gazelle.array_types import Bools, Floats, Indices
+from gazelle.geometry.half_edges import half_edge_twins
 from gazelle.geometry.ray_hits import TriangleRays
-from gazelle.geometry.slivers import flip_slivers, half_edge_twins
+from gazelle.geometry.slivers import flip_slivers
 
 _BITS = 21
 """Of a coordinate that places are distinguished by: a two-millionth of the size."""
 _SLIVER = 2.0
 """Width of triangles that count as none, in such parts."""
+_NOTHING = 1e-10
+"""Volume of what is no body, as a share of the cube of the size."""
 
 
 @dataclass(frozen=True)
@@ -42,11 +45,12 @@ class WeldedSurface:
 
     @cached_property
     def twins(self) -> Indices:
-        """The half-edge that runs back along each, shape (3 m,); -1 if there is none, or several.
+        """The half-edge that runs back along each, shape (3 m,); -1 if there is none.
 
-        Half-edge 3 f + i of face f runs from its corner i to the next.
+        Half-edge 3 f + i of face f runs from its corner i to the next. Where bodies touch along an
+        edge, each has its own two faces there.
         """
-        return half_edge_twins(self.faces, len(self.vertices))
+        return half_edge_twins(self.vertices, self.faces)
 
     @cached_property
     def rays(self) -> TriangleRays:
@@ -77,7 +81,7 @@ def clean(vertices: Floats, faces: NDArray[np.int32]) -> WeldedSurface:
     those beside them are divided there, so that a closed surface stays closed.
 
     Of two faces that are each other's back, as in sheets drawn from both sides, the first
-    is kept.
+    is kept. Where two bodies touch they are one, and neither is.
     """
     corners = vertices[faces].reshape(-1, 3)
     step = max(float(np.ptp(corners, axis=0).max()) / (2.0**_BITS - 2.0), 1e-300)
@@ -85,20 +89,53 @@ def clean(vertices: Floats, faces: NDArray[np.int32]) -> WeldedSurface:
     _, first, inverse = np.unique(keys, return_index=True, return_inverse=True)
     points = corners[first]
     welded = inverse.reshape(-1, 3).astype(np.intp)
-    alike = np.sort(welded, axis=1)
-    if len(points) < 1 << _BITS:
-        _, kept = np.unique(_packed(alike), return_index=True)
-    else:
-        _, kept = np.unique(alike, axis=0, return_index=True)
-    welded = welded[np.sort(kept)]
     welded = welded[(np.diff(np.sort(welded, axis=1), axis=1) > 0).all(axis=1)]
-    welded = flip_slivers(points, welded, _SLIVER * step)
-    a, b, c = (points[welded[:, i]] for i in range(3))
-    normals = np.cross(b - a, c - a)
-    doubled = np.linalg.norm(normals, axis=1)
+    welded = flip_slivers(points, _single(points, welded), _SLIVER * step)
+    normals, doubled = _normals(points, welded)
     real = doubled > step * step
-    normals = normals[real] / doubled[real, None]
-    return WeldedSurface(points, welded[real], normals, doubled[real] / 2.0)
+    return WeldedSurface(points, welded[real], normals[real], doubled[real] / 2.0)
+
+
+def _normals(points: Floats, faces: Indices) -> tuple[Floats, Floats]:
+    """Return the unit normal and twice the area of each triangle; zeros of one without area."""
+    a, b, c = (points[faces[:, i]] for i in range(3))
+    normals = np.cross(b - a, c - a)
+    doubled: Floats = np.linalg.norm(normals, axis=1)
+    return normals / np.maximum(doubled, 1e-300)[:, None], doubled
+
+
+def _single(points: Floats, faces: Indices) -> Indices:
+    """Return triangles without duplicates and backs, and without those between bodies."""
+    ranks = np.argsort(faces, axis=1)
+    alike = np.take_along_axis(faces, ranks, axis=1)
+    keys = _packed(alike) if len(points) < 1 << _BITS else _numbered(alike)
+    _, first, inverse = np.unique(keys, return_index=True, return_inverse=True)
+    if len(first) == len(faces):
+        return faces
+    odd = (ranks[:, 1] - ranks[:, 0]) % 3 == 2
+    kept = np.sort(np.unique(2 * inverse + odd, return_index=True)[1])
+    faces, place = faces[kept], inverse[kept]
+    order = np.argsort(place, kind="stable")
+    pair = np.flatnonzero(place[order[1:]] == place[order[:-1]])
+    one, back = order[pair], order[pair + 1]
+    side = _sides(WeldedSurface(points, faces, *_normals(points, faces)))
+    touch = (side[one] == side[back]) & (side[one] != 0)
+    gone = np.where((side[one] == 0) & (side[back] != 0), one, back)
+    return np.delete(faces, np.concatenate([gone, one[touch], back[touch]]), axis=0)
+
+
+def _sides(surface: WeldedSurface) -> Indices:
+    """Return 1 for triangles of closed parts that look outwards, -1 inwards, 0 for sheets."""
+    number = components(surface)
+    volume = volumes_of(surface, number)
+    volume[np.abs(volume) <= _NOTHING * surface.size**3] = 0.0
+    sides = np.where(closed_parts(surface, number), np.sign(volume), 0.0)
+    return sides.astype(np.intp)[number]
+
+
+def _numbered(rows: Indices) -> NDArray[np.int64]:
+    """Return the number of each row among the distinct ones, shape (n,)."""
+    return np.unique(rows, axis=0, return_inverse=True)[1].ravel().astype(np.int64)
 
 
 def _packed(rows: Indices) -> NDArray[np.int64]:
@@ -107,21 +144,33 @@ def _packed(rows: Indices) -> NDArray[np.int64]:
 
 
 def components(surface: WeldedSurface) -> Indices:
-    """Return the index of the connected part of each face, shape (m,); parts share corners.
+    """Return the index of the connected part of each face, shape (m,); parts share edges.
 
     They are numbered from 0 in the order of their first faces.
     """
-    label = np.arange(len(surface.vertices))
-    corners = surface.faces
-    while True:  # each vertex takes the least label around it, and that label's own label
-        least = label[corners].min(axis=1)
+    label = np.arange(len(surface.faces))
+    twins = surface.twins.reshape(-1, 3)
+    beside = np.where(twins >= 0, twins // 3, label[:, None])
+    while True:  # each face takes the least label around it, and that label's own label
+        least = np.minimum(label, label[beside].min(axis=1))
         after = label.copy()
-        np.minimum.at(after, corners.ravel(), np.repeat(least, 3))
-        after = after[after]
+        np.minimum.at(after, label, least)
+        after = after[np.minimum(after, least)]
         if np.array_equal(after, label):
             break
         label = after
-    _, first, number = np.unique(label[corners[:, 0]], return_index=True, return_inverse=True)
-    rank = np.empty(len(first), np.intp)
-    rank[np.argsort(first, kind="stable")] = np.arange(len(first))
-    return rank[number]
+    _, number = np.unique(label, return_inverse=True)
+    return number.astype(np.intp)
+
+
+def closed_parts(surface: WeldedSurface, number: Indices) -> Bools:
+    """Return whether each connected part of a surface is closed, shape (parts,)."""
+    open_faces = (surface.twins < 0).reshape(-1, 3).any(axis=1)
+    return np.asarray(np.bincount(number, open_faces) == 0)
+
+
+def volumes_of(surface: WeldedSurface, number: Indices) -> Floats:
+    """Return the signed volume of each part [m³]; negative if faces look inwards."""
+    corners = surface.vertices[surface.faces] - surface.vertices.mean(axis=0)
+    each = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6.0
+    return np.bincount(number, each).astype(np.float64)

@@ -167,6 +167,24 @@ def test_no_lid_lies_across_an_opening(name, size):
     assert not inside(decompose(mesh, static=False), points).any()
 
 
+OUTLINES = {
+    "slot behind a face": [(0, 0), (1, 0), (1, 0.4), (0.48, 0.4), (0.48, 0.05), (0.42, 0.05),
+                           (0.42, 0.4), (0, 0.4)],
+    "sharp edges": [(0, 0), (4, 0), (3, 0.6), (2.2, 0.6), (2, 0.3), (1.8, 0.6), (1, 0.6)],
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("size", [0.02, 0.3, 3.0])
+@pytest.mark.parametrize("name", OUTLINES)
+def test_polygons_are_thickened_within_the_body_only(name, size):
+    mesh = hollows.extruded(np.array(OUTLINES[name], float), 0.7)
+    mesh.apply_scale(size / float(np.linalg.norm(mesh.extents)))
+    solid = data(mesh)
+    bounds = {True: 2e-4 * size, False: min(0.005, 0.01 * size)}
+    for static, bound in bounds.items():
+        assert hollows.protrusion(solid, decompose(solid, static=static)) <= bound
+
+
 @pytest.mark.parametrize("size", [0.05, 0.3, 2.0])
 def test_triangles_without_a_width_leave_a_body_closed(size):
     mesh = hollows.made("involute gear", size)
@@ -200,3 +218,59 @@ def test_corners_on_the_edges_of_a_box_divide_what_is_beside_them(count):
 def _is_cut_edge(box, tri):
     a, b, _ = (np.asarray(box.vertices[corner]) for corner in tri)
     return np.count_nonzero(np.abs(a - b) > 0.5) == 1
+
+
+def boxes(*places):
+    return data(*(trimesh.creation.box((1, 1, 1)).apply_translation(place) for place in places))
+
+
+TOUCHING = {
+    "at a corner": ([(0, 0, 0), (1, 1, 1)], 2, (1, 0, 0)),
+    "along an edge": ([(0, 0, 0), (1, 1, 0)], 2, (0.8, 0.2, 0.1)),
+    "along faces": ([(0, 0, 0), (1, 0, 0), (2, 0, 0)], 1, (1, 0, 0.6)),
+    "around a hole": (
+        [(x, y, 0) for x in (0, 1, 2) for y in (0, 1, 2) if (x, y) != (1, 1)],
+        4,
+        (1, 1, 0.1),
+    ),
+    "as bricks": ([(0, 0, 0), (1, 0, 0), (0.5, 0, 1), (1.5, 0, 1)], 2, (-0.4, 0, 0.6)),
+}
+
+
+@pytest.mark.parametrize("name", TOUCHING)
+def test_bodies_that_touch_are_bodies_and_merge_where_they_fit(name):
+    places, count, air = TOUCHING[name]
+    mesh = boxes(*places)
+    surface = clean(mesh.vertices, mesh.faces)
+    assert surface.is_closed()
+    assert surface.volume == pytest.approx(len(places))
+    pieces = decompose(mesh, static=False)
+    assert pieces.gap <= pieces.promised
+    assert len(pieces.solids) == count
+    assert inside(pieces, np.array(places) + 0.4).all()
+    assert not inside(pieces, [air]).any()
+
+
+def test_a_slab_of_tiles_is_one_piece_and_one_of_uneven_tiles_keeps_to_the_bound():
+    chance = np.random.default_rng(0)
+    for spread, few in ((0.0, 1), (0.1, 64)):
+        places = [(x, y, chance.uniform(-spread, spread)) for x in range(8) for y in range(8)]
+        mesh = boxes(*places)
+        pieces = decompose(mesh, static=False)
+        assert pieces.gap <= pieces.promised
+        assert len(pieces.solids) <= few
+        assert hollows.protrusion(mesh, pieces, 500) <= pieces.promised
+
+
+def test_sheets_drawn_from_both_sides_stay_sheets():
+    vessel = trimesh.creation.box((1, 1, 1))
+    vessel.update_faces(vessel.face_normals[:, 2] < 0.5)
+    fin = trimesh.Trimesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)], process=False)
+    fin.apply_translation((0.5, 0.0, 0.0))
+    for sheet in (vessel, fin):
+        back = sheet.copy()
+        back.invert()
+        for mesh in (data(sheet, back), data(back, sheet)):
+            surface = clean(mesh.vertices, mesh.faces)
+            assert len(surface.faces) == len(sheet.faces)
+            assert not surface.is_closed()
