@@ -100,7 +100,8 @@ def unpack_run(file: str | Path, out: str | Path = "runs") -> Run:
     except OSError as error:
         if not source.is_file():
             raise FormatError("there is no such file", file=str(source)) from error
-        raise TaskError(f"cannot unpack the run: {error}") from error
+        reason, hint = error.strerror or error, "give another folder, or free some space"
+        raise TaskError(f"cannot unpack the run: {reason}", file=str(out), hint=hint) from error
     except BROKEN as error:
         raise FormatError(f"not a run's archive: {error}", file=str(source)) from error
 

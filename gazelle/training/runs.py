@@ -87,8 +87,12 @@ class Run:
         name = f"{task_name(config.task)}-{config.recipe.algo}-{stamp}"
         try:
             folder = new_folder(out, name)
-            (folder / "checkpoints").mkdir()
-            _write_config(folder, config)
+            try:
+                (folder / "checkpoints").mkdir()
+                _write_config(folder, config)
+            except OSError:
+                shutil.rmtree(folder, ignore_errors=True)
+                raise
         except OSError as error:
             hint = "give another folder with --out"
             raise TaskError(f"cannot write the run: {error}", hint=hint) from error

@@ -156,7 +156,8 @@ class _Table:
         self._done: set[tuple[str, ...]] = set()
         self.rows: list[dict[str, Any]] = []
         self._columns: list[str] = []
-        if path.exists() and path.stat().st_size:
+        self._made = not path.exists()
+        if not self._made and path.stat().st_size:
             self._read()
         self._file = GrowingFile(path)
         if self._columns:
@@ -178,15 +179,18 @@ class _Table:
                 self._file.write(row_bytes([row], self._columns))
 
     def close(self) -> None:
-        """Close the file."""
+        """Close the file; one without a row, which was not there before, is removed."""
         with self._lock:
             self._file.close()
+            if self._made and not self._columns:
+                self._path.unlink(missing_ok=True)
 
     def _rewrite(self, more: list[str]) -> None:
         known = [key for key in self._columns if key not in _OWN[1:]]
-        self._columns = [*known, *more, *_OWN[1:]]
+        columns = [*known, *more, *_OWN[1:]]
         self._file.close()
-        write_bytes(self._path, row_bytes(self.rows, self._columns, header=True))
+        write_bytes(self._path, row_bytes(self.rows, columns, header=True))
+        self._columns = columns
         self._file = GrowingFile(self._path)
 
     def _read(self) -> None:

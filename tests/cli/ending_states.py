@@ -74,10 +74,10 @@ STATES: dict[str, list[State]] = {
     "new": [State("new task FOLDER/mine", ATHWART)],
     "study": [
         State(
-            "study FOLDER/slow.py:run --workers 2 --out FOLDER/a.csv",
+            "study FOLDER/slow.py:run --seeds 3 --workers 2 --out FOLDER/a.csv",
             "FOLDER/begun",
             saved="a.csv",
-            resumed="study FOLDER/slow.py:run --workers 2 --out FOLDER/a.csv",
+            resumed="study FOLDER/slow.py:run --seeds 3 --workers 2 --out FOLDER/a.csv",
             resumed_sign=0.3,
         )
     ],
@@ -132,8 +132,12 @@ rospy.spin()
 SLOW = """
 import pathlib, time
 def run(*, seed):
-    pathlib.Path(__file__).with_name("begun").touch()
-    time.sleep(100)
+    folder = pathlib.Path(__file__).parent
+    if seed:
+        while not (folder / "a.csv").exists() or not (folder / "a.csv").stat().st_size:
+            time.sleep(0.01)
+        (folder / "begun").touch()
+        time.sleep(100)
     return {}
 """
 LAUNCH = """

@@ -179,6 +179,27 @@ def test_what_grows_by_lines_has_no_half_of_one(write, most, sim, tmp_path):
     assert most - 300 < len(text) <= most
 
 
+@pytest.mark.parametrize("most", [0, 10])
+def test_a_study_without_room_for_a_row_leaves_no_empty_table(most, tmp_path):
+    file = tmp_path / "a.csv"
+    with little_room(most), pytest.raises(OSError, match="File too large"):
+        rows_of_a_study(file, None)
+    assert list(tmp_path.iterdir()) == []
+    file.touch()
+    with little_room(most), pytest.raises(OSError, match="File too large"):
+        rows_of_a_study(file, None)
+    assert file.read_bytes() == b"", "it was there before"
+
+
+@pytest.mark.long
+def test_a_run_without_room_leaves_no_folder(cli, tmp_path):
+    with little_room(20):
+        code, _, err = cli("train", "CartPoleStayUp", "--steps", 10, "--out", tmp_path)
+    assert code == 1
+    assert "cannot write the run" in err
+    assert list(tmp_path.iterdir()) == []
+
+
 def steps_of(table):
     for step in range(1000):
         table.write({"a/loss": 0.5, "b": step}, {"a/loss": None, "b": None}, step)
