@@ -25,6 +25,7 @@ from gazelle.errors import Error
 from gazelle_ros.base.argument_types import MOST_INT
 from gazelle_ros.base.characters import can_be_written
 from gazelle_ros.base.path_texts import can_be_path
+from gazelle_ros.base.real_numbers import real
 
 Decorated = TypeVar("Decorated", bound=Callable[..., Any])
 
@@ -229,8 +230,9 @@ def _fault(value: Any, most: float, depth: int = 0) -> str | None:
     if kind is int or isinstance(value, Integral):
         return None if abs(int(value)) <= MOST_INT else "less than 2^63"
     if isinstance(value, Real):
-        number = float(value)
-        return None if abs(number) <= most else _limited(most, many=depth > 0)
+        number = real(value)
+        good = number is not None and abs(number) <= most
+        return None if good else _limited(most, many=depth > 0)
     if depth < _DEEPEST:
         inner = _inside(value)
         return next((f for each in inner if (f := _fault(each, most, depth + 1))), None)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
@@ -73,6 +74,7 @@ def place(
     "wrong",
     [
         *({"length": value} for value in (math.nan, math.inf, -math.inf, 1e308, 10**400)),
+        *({"length": value} for value in (Fraction(10**400), np.longdouble("1e400"))),
         *({"at": value} for value in ((0.0, math.nan, 0.0), (1.0, 2.0), (), 1.0, ("a",) * 3)),
         *({"points": value} for value in ([math.nan, 0.0], [[0.0], [1.0, 2.0]], [1j, 1j], "a")),
         *({"name": value} for value in ("\x00", "a\ud800")),

@@ -15,7 +15,7 @@ from gazelle.engines import Engine, RangeRays
 from gazelle.errors import SimulationError
 from gazelle.sensors.lidar_group import LidarGroup
 from gazelle.sensors.lidar_ranges import LidarNoise, RangeLaw, measure
-from gazelle.sensors.limits import check_interval, check_worlds
+from gazelle.sensors.limits import check_interval, check_rays, check_worlds
 from gazelle.sensors.model import SystemMaker
 from gazelle.sensors.noise import NoiseModel
 
@@ -67,6 +67,7 @@ class LidarModel:
     def __init__(
         self, lidar: Lidar, engine: Engine, link: str, pose: Pose, seed: int, name: str
     ) -> None:
+        check_rays(lidar, name, engine.nworld)
         self.lidar = lidar
         self.engine = engine
         self.link = link

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from gazelle.argument_checks import world_indices
 from gazelle.array_types import Worlds
-from gazelle.description import Scan, Sensor
+from gazelle.description import Lidar, Scan, Sensor, Source
 from gazelle.engines.limits import MAX_RAYS, MAX_VALUES
 from gazelle.errors import SimulationError
 
@@ -25,18 +23,27 @@ def check_sensor(sensor: Sensor, name: str, nworld: int) -> None:
     Raises:
         SimulationError: It has too many rays or pixels.
     """
-    for what, count, most in _counts(sensor):
-        if not count <= most:
-            raise SimulationError(
-                f"sensor '{name}' has {count:.4g} {what}, more than the limit of {most:,}",
-                source=sensor.source,
-            )
-        if not count * nworld <= MAX_VALUES:
-            raise SimulationError(
-                f"sensor '{name}' has {count:.4g} {what} in each of {nworld} worlds, more than the "
-                f"limit of {MAX_VALUES:,} in all of them",
-                source=sensor.source,
-            )
+    if sensor.lidar is not None:
+        check_rays(sensor.lidar, name, nworld, sensor.source)
+    for camera in sensor.cameras:
+        pixels = _float(camera.width) * _float(camera.height)
+        _check_count("pixels", pixels, MAX_PIXELS, name, nworld, sensor.source)
+
+
+def check_rays(lidar: Lidar, name: str, nworld: int, source: Source | None = None) -> None:
+    """Check that the measurements of a lidar fit into memory.
+
+    Args:
+        lidar: Settings of the file.
+        name: Scoped name of the sensor.
+        nworld: Number of worlds that it measures in.
+        source: Its place in the file.
+
+    Raises:
+        SimulationError: It has too many rays.
+    """
+    rays = _rays(lidar.horizontal) * _rays(lidar.vertical)
+    _check_count("rays", rays, MAX_RAYS, name, nworld, source)
 
 
 def check_worlds(worlds: Worlds | None, nworld: int) -> None:
@@ -49,16 +56,24 @@ def check_worlds(worlds: Worlds | None, nworld: int) -> None:
         raise SimulationError(f"a sensor measures in {nworld} worlds, not in {len(worlds)}")
 
 
-def _counts(sensor: Sensor) -> Iterator[tuple[str, float, int]]:
-    """Yield the name, the number and the limit of each counted quantity."""
-    if sensor.lidar is not None:
-        yield "rays", _rays(sensor.lidar.horizontal) * _rays(sensor.lidar.vertical), MAX_RAYS
-    for camera in sensor.cameras:
-        yield "pixels", _float(camera.width) * _float(camera.height), MAX_PIXELS
+def _check_count(
+    what: str, count: float, most: int, name: str, nworld: int, source: Source | None
+) -> None:
+    if not count <= most:
+        raise SimulationError(
+            f"sensor '{name}' has {count:.4g} {what}, more than the limit of {most:,}",
+            source=source,
+        )
+    if not count * nworld <= MAX_VALUES:
+        raise SimulationError(
+            f"sensor '{name}' has {count:.4g} {what} in each of {nworld} worlds, more than the "
+            f"limit of {MAX_VALUES:,} in all of them",
+            source=source,
+        )
 
 
 def _rays(scan: Scan) -> float:
-    return max(1.0, abs(_float(scan.samples) * scan.resolution))
+    return max(1.0, abs(_float(scan.samples) * float(scan.resolution)))
 
 
 def _float(count: int) -> float:

@@ -1,10 +1,13 @@
 """Sensors that files make too large are one error with its place; any rate ends."""
 
+import numpy as np
 import pytest
 
 import gazelle
 from gazelle import formats
+from gazelle.description import Lidar, Pose, Scan
 from gazelle.errors import SimulationError
+from gazelle.sensors import LidarModel
 from gazelle.simulation.clock import Schedule
 
 WORLD = """<sdf version='1.6'><world name='w'><model name='b'><static>1</static><link name='l'>
@@ -39,6 +42,22 @@ def test_too_many_rays_or_pixels_are_refused(text, nworld, complaint, engine):
     assert "sensor 'b::l::s' has" in caught.value.message
     assert complaint in caught.value.message
     assert (caught.value.file, caught.value.line) == ("large.world", 2)
+
+
+@pytest.mark.parametrize(
+    "scan",
+    [
+        Scan(samples=10**9),
+        Scan(resolution=1e6),
+        Scan(samples=2**62),
+        Scan(resolution=np.uint8(255)),
+    ],
+)
+def test_too_many_rays_of_a_model_are_refused_before_they_are_made(scan):
+    lidar = Lidar(horizontal=scan, vertical=Scan(samples=100))
+    with gazelle.Simulation("empty", threads=1) as sim, pytest.raises(SimulationError) as caught:
+        LidarModel(lidar, sim.engine, "ground_plane::link", Pose(), 0, "s")
+    assert "rays, more than the limit of 4,000,000" in caught.value.message
 
 
 @pytest.mark.parametrize("rate", ["1e20", "1e308", "1e-308", "1e9", "-5", "inf"])
