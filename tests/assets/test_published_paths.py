@@ -148,7 +148,7 @@ def test_manifests_name_what_is_there_and_what_is_not(manifest):
 
 
 LAUNCHES = sorted(
-    str(file.relative_to(assets.root())) for file in assets.root().glob("*/launch/*.launch")
+    str(file.relative_to(assets.root())) for file in assets.root().glob("*/*/*.launch")
 )
 
 

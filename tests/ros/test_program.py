@@ -65,3 +65,15 @@ def test_scripts_find_the_variables_that_ros_sets(tmp_path, monkeypatch, given, 
     command = [sys.executable, "-m", "gazelle_ros", "exec", str(script)]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
     assert done.stdout.split() == [seen, "1"]
+
+
+def test_launch_files_find_the_variables_that_ros_sets(tmp_path, monkeypatch):
+    variables = ("PYTHONPATH", "ROS_PACKAGE_PATH")
+    for name in variables:
+        monkeypatch.delenv(name, raising=False)
+    lines = [f'<param name="{name}" value="a$(env {name})"/>' for name in variables]
+    file = tmp_path / "variables.launch"
+    file.write_text(f"<launch>{''.join(lines)}</launch>")
+    command = [sys.executable, "-m", "gazelle_ros", "launch", str(file), "--dump-params"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert done.stdout == "/PYTHONPATH: a\n/ROS_PACKAGE_PATH: a\n"

@@ -227,14 +227,22 @@ def test_a_part_without_pixels_is_an_error(fields, encoding, text):
         cropped(CropSettings(**fields), image_of(np.zeros(SIZE, np.uint8), encoding), camera())
 
 
-def test_a_part_has_topics_of_its_own(graph, make_node):
-    node = make_node("crop")
+@pytest.mark.parametrize(
+    ("old", "new", "namespace"),
+    [
+        ("/other", "/another", "camera_out"),
+        ("/camera_out", "/small", "small"),
+        ("/camera_out/image_raw", "/small/image_raw", "small"),
+    ],
+)
+def test_a_part_has_topics_of_its_own(graph, make_node, old, new, namespace):
+    node = make_node("crop", remappings={old: new})
     node.set_param("/crop/decimation_x", 2)
     CropDecimate(node)
-    got = graph.results("/camera_out/image_raw", "/camera_out/camera_info")
+    got = graph.results(f"/{namespace}/image_raw", f"/{namespace}/camera_info")
     graph.send_until(got)
-    assert got["/camera_out/image_raw"][0].width == 16
-    assert got["/camera_out/camera_info"][0].binning_x == 2
+    assert got[f"/{namespace}/image_raw"][0].width == 16
+    assert got[f"/{namespace}/camera_info"][0].binning_x == 2
 
 
 def test_parameters_out_of_their_limits_become_the_nearest_ones(make_node):

@@ -13,6 +13,7 @@ from gazelle_ros.builtin.joysticks.relay import JoystickRelay
 from gazelle_ros.builtin.joysticks.teleop_twist import TeleopTwistJoy
 from gazelle_ros.builtin.twist_mux import TwistMux
 from gazelle_ros.launch import load_launch
+from gazelle_ros.launch.loader import declared_arguments
 
 SHARE = Path(gazelle_ros.builtin.__file__).parent / "share"
 LAUNCHES = sorted(SHARE.glob("*/launch/*.launch"))
@@ -23,7 +24,8 @@ JOYSTICKS = sorted(SHARE.glob("teleop_twist_joy/config/*.yaml"))
     "file", LAUNCHES, ids=lambda each: f"{each.parent.parent.name}/{each.name}"
 )
 def test_a_launch_file_starts_nodes_that_are_built_in(file):
-    plan = load_launch(file)
+    arguments = declared_arguments(file).arguments
+    plan = load_launch(file, {"manager": "manager"} if "manager" in arguments else None)
     assert plan.nodes
     for node in plan.nodes:
         assert callable(registry.main_of(node.package, node.type))

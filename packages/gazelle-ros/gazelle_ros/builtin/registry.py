@@ -193,6 +193,23 @@ _OWN = {
     )
 }  # fmt: skip
 _WINDOWS = ("rqt", "rviz")
+_OTHER_WINDOWS = {
+    "create_dashboard",
+    "fkie_node_manager",
+    "kobuki_dashboard",
+    "kobuki_qtestsuite",
+    "mapviz",
+    "moveit_setup_assistant",
+    "node_manager_fkie",
+    "open_manipulator_control_gui",
+    "plotjuggler",
+    "plotjuggler_ros",
+    "pr2_dashboard",
+    "smach_viewer",
+    "stdr_gui",
+    "swri_console",
+    "turtlebot_dashboard",
+}
 
 _registered: dict[str, BuiltinPackage] = {}
 
@@ -222,7 +239,7 @@ def package(name: str) -> BuiltinPackage | None:
         return _OWN[name]
     if name in bundled.folders():
         return bundled.package(name)
-    if name.startswith(_WINDOWS):
+    if name.startswith(_WINDOWS) or name in _OTHER_WINDOWS:
         return BuiltinPackage(name, skipped=_NO_SCREEN, windows=_windows().get(name, {}))
     return None
 

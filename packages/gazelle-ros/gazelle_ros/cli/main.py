@@ -52,7 +52,13 @@ class CommandLine:
     """Made before a command is imported, and closed when it has ended."""
 
 
-_VARIABLES = {"ROS_DISTRO": "noetic", "ROS_VERSION": "1", "ROS_PYTHON_VERSION": "3"}
+_VARIABLES = {
+    "PYTHONPATH": "",
+    "ROS_DISTRO": "noetic",
+    "ROS_PACKAGE_PATH": "",
+    "ROS_PYTHON_VERSION": "3",
+    "ROS_VERSION": "1",
+}
 """Environment variables that launch files and scripts read, as ROS's setup files set them."""
 
 ROS = CommandLine(

@@ -67,7 +67,11 @@ class ImageConversion(CallbackWork):
         exact: bool = True,
     ) -> None:
         super().__init__(node)
-        self._sources, self._convert, self._queue_size = sources, convert, queue_size
+        self._sources, self._convert, self._queue_size = (
+            _resolved(node, sources),
+            convert,
+            queue_size,
+        )
         self._warned = -math.inf
         self._filters = [SimpleFilter() for _ in sources]
         if exact:
@@ -75,7 +79,7 @@ class ImageConversion(CallbackWork):
         else:
             together = ApproximateTimeSynchronizer(self._filters, queue_size, _SLOP_S)
         together.registerCallback(self._take)
-        self.outputs = OnDemandOutputs(node, outputs, self._begin)
+        self.outputs = OnDemandOutputs(node, _resolved(node, outputs), self._begin)
 
     def _begin(self) -> list[Subscriber]:
         return [
@@ -97,8 +101,23 @@ class ImageConversion(CallbackWork):
 
 def camera_topics(node: Node, image: str) -> Topics:
     """Return the topics of a camera: its images, and ``camera_info`` in their namespace."""
-    topic = node.resolve(image)
+    topic = _resolve(node, image)
     return [
         (topic, sensor_msgs.msg.Image),
         (names.namespace_of(topic) + "camera_info", sensor_msgs.msg.CameraInfo),
     ]
+
+
+def _resolved(node: Node, topics: Topics) -> Topics:
+    return [(_resolve(node, topic), kind) for topic, kind in topics]
+
+
+def _resolve(node: Node, topic: str) -> str:
+    """Return the global name of a topic, remapped as a whole or by its namespace.
+
+    ``rgb:=color`` makes ``rgb/camera_info`` ``color/camera_info``, as node handles of roscpp do.
+    """
+    namespace, _, name = topic.rpartition("/")
+    if not namespace or names.is_global(topic):
+        return node.resolve(topic)
+    return node.resolve(f"{node.resolve(namespace)}/{name}")

@@ -22,7 +22,6 @@ from gazelle_ros.compat.cv_bridge import CvBridge
 from gazelle_ros.msgs import sensor_msgs
 from gazelle_ros.node import Node
 
-_IMAGE, _CAMERA = sensor_msgs.msg.Image, sensor_msgs.msg.CameraInfo
 _MOST_PX = 10_000
 _MOSAIC = 2
 """Rows and columns of a mosaic's pattern."""
@@ -71,7 +70,7 @@ class CropDecimate(ImageConversion):
         super().__init__(
             node,
             camera_topics(node, "camera/image_raw"),
-            [("camera_out/image_raw", _IMAGE), ("camera_out/camera_info", _CAMERA)],
+            camera_topics(node, "camera_out/image_raw"),
             lambda image, camera: cropped(self._tuned.settings, image, camera),
             queue_size=settings.queue_size,
         )

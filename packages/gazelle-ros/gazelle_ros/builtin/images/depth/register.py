@@ -8,7 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from gazelle_ros.base.array_types import Floats
-from gazelle_ros.builtin.images.conversion import QUEUE, TRANSPORT_PARAMETERS, ImageConversion
+from gazelle_ros.builtin.images.conversion import (
+    QUEUE,
+    TRANSPORT_PARAMETERS,
+    ImageConversion,
+    camera_topics,
+)
 from gazelle_ros.builtin.images.depth.metric import depths_of, image_of_depths
 from gazelle_ros.builtin.images.depth.points import points_of
 from gazelle_ros.builtin.parameters import settings_of
@@ -41,7 +46,7 @@ class RegisterSettings:
 class RegisterDepth(ImageConversion):
     """Depth images of ``depth/image_rect`` as the camera of ``rgb/camera_info`` would see them.
 
-    They are published on ``depth_registered/image_rect``, with ``depth_registered/camera_info``.
+    They are published on ``depth_registered/image_rect``, with ``camera_info`` in its namespace.
 
     Args:
         node: On the graph, with a transform between the cameras.
@@ -61,10 +66,7 @@ class RegisterDepth(ImageConversion):
                 ("depth/camera_info", kinds.CameraInfo),
                 ("rgb/camera_info", kinds.CameraInfo),
             ],
-            [
-                ("depth_registered/image_rect", kinds.Image),
-                ("depth_registered/camera_info", kinds.CameraInfo),
-            ],
+            camera_topics(node, "depth_registered/image_rect"),
             self._register,
             queue_size=self._settings.queue_size,
             exact=False,
