@@ -16,13 +16,15 @@ class Named(Mapping[str, T]):
     Args:
         kind: Kind of the items.
         items: By name.
-        scope: May stand before the names, with ``::`` between them, as in Gazebo.
+        scope: Name of the model that has them; may stand before theirs, with ``::`` between them,
+            as in Gazebo.
     """
 
     def __init__(self, kind: str, items: Mapping[str, T], scope: str = "") -> None:
         self._kind = kind
         self._items = items
         self._scope = f"{scope}::" if scope else ""
+        self._place = f" in '{scope}'" if scope else ""
 
     def __getitem__(self, name: str) -> T:
         try:
@@ -32,7 +34,8 @@ class Named(Mapping[str, T]):
             if own in self._items:
                 return self._items[own]
             raise UnknownNameError(
-                f"there is no {self._kind} '{name}'", hint=did_you_mean(name, self._items)
+                f"there is no {self._kind} '{name}'{self._place}",
+                hint=did_you_mean(name, self._items),
             ) from None
 
     def get(self, name: str, default: Any = None) -> Any:
@@ -41,6 +44,9 @@ class Named(Mapping[str, T]):
 
     def __contains__(self, name: object) -> bool:
         return isinstance(name, str) and self._own(name) in self._items
+
+    def __repr__(self) -> str:
+        return f"<{self._kind}s{self._place}: {', '.join(self._items) or 'none'}>"
 
     def _own(self, name: str) -> str:
         return name if name in self._items else name.removeprefix(self._scope)

@@ -47,7 +47,7 @@ def joint_description(model: Model, name: str) -> Joint:
         for placed in model.walk()
         for joint in placed.model.joints
     }
-    return Named(f"joint in '{model.name}'", found, model.name)[name]
+    return Named("joint", found, model.name)[name]
 
 
 def frame_of(model: Model, links: Mapping[str, LinkHandle], name: str) -> tuple[LinkHandle, Pose]:

@@ -150,13 +150,12 @@ class Robot(Ports):
         self.managers: dict[str, ControllerManager] = {}
         self._row = simulation.engine.models[model.name]
         self._links = model_handles.link_handles(simulation, model)
-        own = f"in '{self.name}'"
-        self.links: Mapping[str, LinkHandle] = Named(f"link {own}", self._links, self.name)
+        self.links: Mapping[str, LinkHandle] = Named("link", self._links, self.name)
         self.joints: Mapping[str, JointHandle] = Named(
-            f"moving joint {own}", model_handles.joint_handles(simulation, model), self.name
+            "moving joint", model_handles.joint_handles(simulation, model), self.name
         )
         self.sensors: Mapping[str, SensorUnit] = Named(
-            f"sensor {own}", _sensor_units(self, model, sensors), self.name
+            "sensor", _sensor_units(self, model, sensors), self.name
         )
 
     @property

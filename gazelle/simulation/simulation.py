@@ -240,6 +240,10 @@ class Simulation(Closeable):
             FormatError: The file cannot be read.
             EngineError: The model cannot be simulated.
         """
+        if not isinstance(pose, Pose | None):
+            raise SimulationError(
+                f"a pose is a Pose, not {pose!r:.60}", hint="give Pose(x, y, z, roll, pitch, yaw)"
+            )
         loaded = model if isinstance(model, Model) else formats.load_model(model)
         placed = replace(loaded, name=name or loaded.name, pose=(pose or Pose()) * loaded.pose)
         check_model(placed, SimulationError)
