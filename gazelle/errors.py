@@ -14,6 +14,7 @@ from gazelle_ros.base.errors import (
     closest_of,
     describe,
     did_you_mean,
+    few,
     located,
 )
 
@@ -41,6 +42,7 @@ __all__ = [
     "closest_of",
     "describe",
     "did_you_mean",
+    "few",
     "located",
 ]
 

@@ -41,7 +41,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--urdf", metavar="FILE", help="robot that an SRDF or controller file belongs to"
     )
     parser.add_argument(
-        "--engine", metavar="NAME", default="mujoco", help="physics engine (default mujoco)"
+        "--engine",
+        metavar="NAME",
+        default="",
+        help="physics engine: mujoco or planar (default mujoco; planar for Stage files)",
     )
     parser.add_argument(
         "--files-only", action="store_true", help="do not load the files into the engine"

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 
-from gazelle import formats
 from gazelle.control.checking import check_controllers, is_controllers
 from gazelle.description import World
 from gazelle.errors import ControlError, Error, FormatWarning, GazelleWarning, PluginWarning
 from gazelle.formats import Problem
-from gazelle.formats.check import INCLUDED, TOLERATED, is_semantic
+from gazelle.formats.check import INCLUDED, TOLERATED, examine, examine_string
+from gazelle.formats.opening import on_ground
 from gazelle.simulation import Simulation
+from gazelle.stage import stage_world
 
 
 def check_file(
@@ -26,7 +27,7 @@ def check_file(
 
     Args:
         file: As for ``gazelle.formats.load``; or controllers, or an SRDF.
-        engine: Builds it; None reads the file only.
+        engine: Builds it, for an empty name that of ``gazelle run``; None reads the file only.
         urdf: The robot of controllers, or of an SRDF.
         xacro_args: Values of ``<xacro:arg>``.
 
@@ -37,14 +38,8 @@ def check_file(
         if urdf is None:
             raise ControlError(f"{file} holds controllers", hint="name their robot: --urdf FILE")
         return check_controllers(file, urdf)
-    found = formats.check(file, urdf=urdf, xacro_args=xacro_args)
-    if engine is None or is_semantic(Path(file)) or _stops(found):
-        return found
-
-    def source() -> World | str:
-        return formats.load(file, xacro_args=xacro_args) if xacro_args else file
-
-    return found + _build(source, engine)
+    found, world = examine(file, urdf=urdf, xacro_args=xacro_args)
+    return found if engine is None else found + _build(found, world, engine)
 
 
 def check_text(text: str, name: str, engine: str | None) -> list[Problem]:
@@ -53,12 +48,10 @@ def check_text(text: str, name: str, engine: str | None) -> list[Problem]:
     Args:
         text: The text.
         name: Stands for the file in the problems.
-        engine: Builds it; None reads the text only.
+        engine: As for ``check_file``.
     """
-    found = formats.check_string(text, name=name)
-    if engine is None or _stops(found):
-        return found
-    return found + _build(lambda: formats.load_string(text, name=name), engine)
+    found, world = examine_string(text, name=name)
+    return found if engine is None else found + _build(found, world, engine)
 
 
 def _stops(found: list[Problem]) -> bool:
@@ -69,13 +62,20 @@ def _stops(found: list[Problem]) -> bool:
     )
 
 
-def _build(source: Callable[[], World | str], engine: str) -> list[Problem]:
-    """Return the problems that the engine and the plugins report."""
+def _build(found: list[Problem], world: World | None, engine: str) -> list[Problem]:
+    """Return the problems that the engine and the plugins report, if a file can be read."""
+    if world is None or _stops(found):
+        return []
+    return _built(on_ground(world) if world.bare else world, engine)
+
+
+def _built(world: World, engine: str) -> list[Problem]:
     found: list[Problem] = []
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         try:
-            Simulation(source(), engine).close()
+            usual = "mujoco" if stage_world(world) is None else "planar"
+            Simulation(world, engine or usual).close()
         except Error as error:
             found.append(Problem.of(error))
     for warning in caught:

@@ -29,8 +29,14 @@ MAX_ITERATIONS = 1000
 # A world takes a kilobyte at the very least.
 MAX_WORLDS = 2**20
 
-MAX_COORDINATES = 50_000
-"""Coordinates of motion of one world in space: matrices of the solver grow with their square."""
+MAX_COORDINATES = 24_000
+"""Coordinates of motion of one world in space: the compiler's time grows with their square."""
+
+MAX_CHAIN = 1_000
+"""Moving links one on the other: MuJoCo compiles 1,023."""
+
+MAX_SOLIDS = 2_000
+"""Links of one model that collide and move: MuJoCo needs a list of all pairs of them."""
 
 MAX_RAYS = 4_000_000
 """Of one range finder, all rows together."""

@@ -33,6 +33,7 @@ class Table(Generic[Row_co, Rows_co]):
     ) -> None:
         self._names, self._one, self._many = names, one, many
         self._known: dict[str | tuple[str, ...], Any] = {}
+        self._listed: tuple[Iterable[str], frozenset[str]] = ((), frozenset())
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -42,6 +43,13 @@ class Table(Generic[Row_co, Rows_co]):
     def __iter__(self) -> Iterator[str]:
         """Iterate over the names of all rows."""
         return iter(self._names())
+
+    def __contains__(self, name: object) -> bool:
+        """Return whether there is a row of a name."""
+        names = self._names()
+        if names is not self._listed[0]:  # an engine that is unchanged gives the same tuple
+            self._listed = names, frozenset(names)
+        return name in self._listed[1]
 
     @overload
     def __getitem__(self, names: str) -> Row_co: ...

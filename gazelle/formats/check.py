@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
-from gazelle.description import Source
+from gazelle.description import Source, World
 from gazelle.errors import Error
 from gazelle.formats import srdf, xml
 from gazelle.formats.lint import Diagnostic, lint, semantics
@@ -70,31 +70,63 @@ def check(
         xacro_args: As for ``load``.
         urdf: The robot that an SRDF is for, whose links and joints it must name.
     """
+    return examine(path, paths=paths, xacro_args=xacro_args, urdf=urdf)[0]
+
+
+def examine(
+    path: PathLike,
+    *,
+    paths: Sequence[PathLike] = (),
+    xacro_args: Mapping[str, str] | None = None,
+    urdf: PathLike | None = None,
+) -> tuple[list[Problem], World | None]:
+    """Return the problems of a file, as ``check``, and its world, if it holds one.
+
+    Args:
+        path: As for ``load``; or an SRDF.
+        paths: As for ``load``.
+        xacro_args: As for ``load``.
+        urdf: As for ``check``.
+    """
     reading = Reading(Resolver(paths), xacro_args=dict(xacro_args or {}))
+    worlds: list[World] = []
 
     def judge() -> list[Problem]:
         file = find_file(path, reading)
         if is_semantic(file):
             return _check_semantics(file, urdf, reading)
-        return [_problem_of(finding) for finding in lint(read_path(file, reading))]
+        worlds.append(read_path(file, reading))
+        return [_problem_of(finding) for finding in lint(worlds[0])]
 
     name = os.fspath(path) if isinstance(path, str | os.PathLike) else None
-    return _found(reading, judge, name)
+    return _found(reading, judge, name), worlds[0] if worlds else None
 
 
 def check_string(text: str, *, name: str = "string") -> list[Problem]:
     """Load SDF, URDF, xacro or Stage text and list its problems, errors first.
 
     Args:
+        text: The text.
+        name: Stands for the file in the problems.
+    """
+    return examine_string(text, name=name)[0]
+
+
+def examine_string(text: str, *, name: str = "string") -> tuple[list[Problem], World | None]:
+    """Return the problems of a text, as ``check_string``, and its world, if it holds one.
+
+    Args:
         text: As for ``load_string``.
         name: Stands for the file in the problems.
     """
     reading = Reading(Resolver())
+    worlds: list[World] = []
 
     def judge() -> list[Problem]:
-        return [_problem_of(finding) for finding in lint(read_text(text, name, reading))]
+        worlds.append(read_text(text, name, reading))
+        return [_problem_of(finding) for finding in lint(worlds[0])]
 
-    return _found(reading, judge, name)
+    return _found(reading, judge, name), worlds[0] if worlds else None
 
 
 def _found(reading: Reading, judge: Callable[[], list[Problem]], name: str | None) -> list[Problem]:

@@ -7,6 +7,21 @@ from pathlib import Path
 
 from gazelle.errors import FormatError
 
+MAX_XML_BYTES = 64 * 2**20
+"""Size of an XML file."""
+
+MAX_XML_DEPTH = 256
+"""Elements of an XML file in each other."""
+
+MAX_XML_ELEMENTS = 250_000
+"""Elements of an XML file: to read one and to make what it describes takes 20 to 80 us."""
+
+MAX_NAME = 2_000
+"""Characters of a name and those of all elements around it: each part is named by all of them."""
+
+MAX_PLACE = 200
+"""Characters of a name in the path of an element; five times as many of the whole path."""
+
 MAX_NODES = 100_000
 """Nodes of a COLLADA scene, each counted as often as it is put somewhere."""
 
@@ -31,6 +46,10 @@ MAX_POINTS = 10_000
 
 MAX_BYTES = 512 * 2**20
 """Size of a file of a mesh, a picture or elevations."""
+
+
+class LimitError(FormatError):
+    """A file exceeds a limit."""
 
 
 def read_bounded(path: Path, most: int = MAX_BYTES) -> bytes:

@@ -35,10 +35,10 @@ def open_world(source: World | Model | PathLike, *, ground: bool = True) -> Worl
         world = World(models=(source,), source=source.source, bare=True)
     else:
         world = load(source)
-    return _on_ground(world) if world.bare and ground else world
+    return on_ground(world) if world.bare and ground else world
 
 
-def _on_ground(world: World) -> World:
+def on_ground(world: World) -> World:
     """Return a world with ground and sun that the models of another stand in."""
     empty = load(_EMPTY)
     floor = () if any(map(_is_ground, world.models)) else empty.models

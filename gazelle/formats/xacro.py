@@ -333,8 +333,9 @@ def _convert(node: Any, file: str, outer: Source | None, counts: dict[str, int])
     if step == node.tagName and outer is not None:
         number = counts[step] = counts.get(step, 0) + 1
         step = step if number == 1 else f"{step}[{number}]"
-    path = step if outer is None else f"{outer.element}/{step}"
+    path = step if outer is None else xml.below(outer.element or "", step)
     source = Source(place[0], place[1] or None, path)
+    xml.refuse_long_name(attributes, source)
     text: list[str] = []
     children: list[Parameters] = []
     inner: dict[str, int] = {}

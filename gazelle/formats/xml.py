@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import codecs
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
@@ -19,14 +20,18 @@ from gazelle.errors import FormatError
 from gazelle.formats import blanks
 from gazelle.formats.blanks import Report
 from gazelle.formats.lfs import refuse_pointer
-from gazelle.formats.limits import read_bounded
+from gazelle.formats.limits import (
+    MAX_NAME,
+    MAX_PLACE,
+    MAX_XML_BYTES,
+    MAX_XML_DEPTH,
+    MAX_XML_ELEMENTS,
+    LimitError,
+    read_bounded,
+)
 from gazelle.formats.wellformed import well_formed
 from gazelle.formats.xml_faults import Opened, explained
 from gazelle_ros.base import characters
-
-MAX_BYTES = 64 * 2**20
-MAX_DEPTH = 256
-MAX_ELEMENTS = 1_000_000
 
 _NAMED = ("name", "reference", "filename")
 _BLANK = b" \t\r\n\xef\xbb\xbf\xff\xfe\x00"
@@ -40,10 +45,10 @@ def read_bytes(path: Path) -> bytes:
 
     Raises:
         FormatError: The file is missing, unreadable, a pointer of Git LFS, or larger than
-            ``MAX_BYTES``.
+            ``MAX_XML_BYTES``.
     """
     try:
-        data = read_bounded(path, MAX_BYTES)
+        data = read_bounded(path, MAX_XML_BYTES)
     except FileNotFoundError:
         raise FormatError("there is no such file", file=str(path)) from None
     except (OSError, ValueError) as error:
@@ -85,6 +90,8 @@ def parsed(
         data = blanks.plain_bytes(data, name, characters.XML_COMMENT, report)
     try:
         return _parsed(data, name, is_text=isinstance(text, str))
+    except LimitError:
+        raise
     except FormatError as error:
         mended = well_formed(data) if report is not None else None
         if report is None or mended is None:
@@ -113,8 +120,8 @@ def _with_quotes_named(error: FormatError, data: bytes) -> FormatError:
 
 
 def _parsed(data: bytes, name: str, *, is_text: bool) -> tuple[Parameters, bytes]:
-    if len(data) > MAX_BYTES:
-        raise FormatError(f"the XML is larger than {MAX_BYTES} bytes", file=name)
+    if len(data) > MAX_XML_BYTES:
+        raise LimitError(f"the XML is larger than {MAX_XML_BYTES} bytes", file=name)
     if not data.strip():
         raise FormatError("the file is empty", file=name)
     if data.lstrip(_BLANK)[:1] not in _FIRST:
@@ -140,6 +147,7 @@ class _Open:
     tag: str
     attributes: dict[str, str]
     source: Source
+    letters: int  # of its name and all around it
     text: list[str] = field(default_factory=list)
     children: list[Parameters] = field(default_factory=list)
     counts: dict[str, int] = field(default_factory=dict)
@@ -190,17 +198,23 @@ class _TreeBuilder:
     def _start(self, tag: str, attributes: dict[str, str]) -> None:
         line = self._parser.CurrentLineNumber
         self._count += 1
-        if len(self._open) >= MAX_DEPTH or self._count > MAX_ELEMENTS:
+        if len(self._open) >= MAX_XML_DEPTH or self._count > MAX_XML_ELEMENTS:
             what = (
-                f"more than {MAX_ELEMENTS} elements"
-                if self._count > MAX_ELEMENTS
-                else f"elements nested more than {MAX_DEPTH} deep"
+                f"more than the limit of {MAX_XML_ELEMENTS:,} elements"
+                if self._count > MAX_XML_ELEMENTS
+                else f"elements nested more than {MAX_XML_DEPTH} deep"
             )
-            raise FormatError(f"the file has {what}", file=self._name, line=line)
+            raise LimitError(
+                f"the file has {what}",
+                file=self._name,
+                line=line,
+                element=self._open[-1].source.element if self._open else None,
+                hint="make fewer and larger parts, such as one mesh of what never moves",
+            )
         parent = self._open[-1] if self._open else None
-        self._open.append(
-            _Open(tag, attributes, Source(self._name, line, _place(tag, attributes, parent)))
-        )
+        source = Source(self._name, line, _place(tag, attributes, parent))
+        letters = refuse_long_name(attributes, source, parent.letters if parent else 0)
+        self._open.append(_Open(tag, attributes, source, letters))
 
     def _characters(self, text: str) -> None:
         current = self._open[-1]
@@ -233,14 +247,33 @@ def _place(tag: str, attributes: dict[str, str], parent: _Open | None) -> str:
     if step == tag:
         number = parent.counts[tag] = parent.counts.get(tag, 0) + 1
         step = tag if number == 1 else f"{tag}[{number}]"
-    outer = parent.source.element
-    return f"{outer}/{step}"
+    return below(parent.source.element or "", step)
+
+
+def below(outer: str, step: str) -> str:
+    """Return the path of an element in another; of a long one the end."""
+    return f"{outer if len(outer) <= 5 * MAX_PLACE else outer[-MAX_PLACE:]}/{step}"
+
+
+def refuse_long_name(attributes: Mapping[str, str], source: Source, around: int = 0) -> int:
+    """Return the number of characters of a name and of those around it.
+
+    Raises:
+        LimitError: They are too many.
+    """
+    letters = around + len(attributes.get("name", ""))
+    if letters > MAX_NAME:
+        raise LimitError(
+            f"a name, with those of all elements around it, has at most {MAX_NAME:,} characters",
+            source=source,
+        )
+    return letters
 
 
 def label(tag: str, attributes: dict[str, str]) -> str:
-    """Return one step of an element path, such as ``link[@name='base']``."""
+    """Return one step of an element path, such as ``link[@name='base']``; short for long names."""
     for key in _NAMED:
         value = attributes.get(key)
         if value:
-            return f"{tag}[@{key}='{value}']"
-    return tag
+            return f"{tag[:MAX_PLACE]}[@{key}='{value[:MAX_PLACE]}']"
+    return tag[:MAX_PLACE]

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 
 from gazelle.description import Joint
 from gazelle.errors import Error
+
+_SHOWN = 20  # joints of a cycle that a message names
 
 
 def leaders_of(joints: Iterable[tuple[str, Joint]]) -> dict[str, str]:
@@ -13,37 +15,47 @@ def leaders_of(joints: Iterable[tuple[str, Joint]]) -> dict[str, str]:
     return {name: axis.mimic.joint for name, joint in joints for axis in joint.axes if axis.mimic}
 
 
-def mimic_cycle(joint: str, leaders: dict[str, str]) -> list[str]:
-    """Return the joints from one that mimics itself through others back to it; else none.
+def mimic_cycles(leaders: Mapping[str, str]) -> dict[str, str]:
+    """Return each joint that mimics itself through others, and the names from it back to it.
 
     Args:
-        joint: Name of the joint.
         leaders: Of ``leaders_of``.
     """
-    path = [joint]
-    while (leader := leaders.get(path[-1])) is not None:
-        path.append(leader)
-        if leader in path[:-1]:
-            return path if leader == joint else []
-    return []
+    cycles: dict[str, str] = {}
+    seen: set[str] = set()
+    for first in leaders:
+        path: dict[str, int] = {}
+        joint: str | None = first
+        while joint is not None and joint not in seen:
+            seen.add(joint)
+            path[joint] = len(path)
+            joint = leaders.get(joint)
+        ring = list(path)[path[joint] :] if joint in path else []
+        cycles.update((name, _shown(ring, place)) for place, name in enumerate(ring))
+    return cycles
 
 
-def refuse_cycle(name: str, joint: Joint, leaders: dict[str, str], error: type[Error]) -> None:
+def _shown(ring: Sequence[str], place: int) -> str:
+    """Return the names of a ring from one on, back to it."""
+    names = [ring[(place + step) % len(ring)] for step in range(min(len(ring), _SHOWN))]
+    return " -> ".join((*names, *(["..."] if len(names) < len(ring) else []), ring[place]))
+
+
+def refuse_cycle(name: str, joint: Joint, cycles: Mapping[str, str], error: type[Error]) -> None:
     """Check that a joint does not mimic itself, through others or not.
 
     Args:
         name: Of the joint, as in the leaders.
         joint: The joint.
-        leaders: Of ``leaders_of``.
+        cycles: Of ``mimic_cycles``.
         error: Class of the error.
 
     Raises:
         Error: It mimics itself.
     """
-    circle = mimic_cycle(name, leaders)
-    if circle:
+    if name in cycles:
         raise error(
-            f"joint '{name}' mimics itself: {' -> '.join(circle)}",
+            f"joint '{name}' mimics itself: {cycles[name]}",
             source=joint.source,
             hint="let one of them mimic no other",
         )

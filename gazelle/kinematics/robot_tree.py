@@ -10,7 +10,7 @@ from gazelle.description import Joint, JointAxis, Model, Pose, VirtualJoint
 from gazelle.errors import PlanningError
 from gazelle.kinematics.joint_graph import JointGraph
 from gazelle.kinematics.joint_nodes import JointNode, JointNodes
-from gazelle.kinematics.mimics import leaders_of, refuse_cycle
+from gazelle.kinematics.mimics import leaders_of, mimic_cycles, refuse_cycle
 from gazelle.kinematics.tree import TreeLink, tree_of
 from gazelle.kinematics.variables import JointBounds, Variable, bounds_of
 
@@ -73,11 +73,12 @@ class RobotTree:
         self._add_virtual(virtual)
         self.nodes.frames[self.root] = (len(self.nodes.nodes) - 1, Pose())
         self.graph = JointGraph(self._in_order([b.joint for b in bodies if b.joint is not None]))
-        leaders = leaders_of((each.joint_name, each.joint) for each in bodies if each.joint)
+        joints = ((each.joint_name, each.joint) for each in bodies if each.joint)
+        cycles = mimic_cycles(leaders_of(joints))
         by_name = {body.name: body for body in bodies}
         self.bodies = {} if self.root == WORLD else {self.root: by_name[self.root]}
         for joint in self.graph.outwards(self.root):
-            refuse_cycle(joint.name, joint, leaders, PlanningError)
+            refuse_cycle(joint.name, joint, cycles, PlanningError)
             self.bodies[joint.child] = by_name[joint.child]
             self._add(by_name[joint.child], joint)
 

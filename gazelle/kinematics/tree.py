@@ -216,18 +216,20 @@ def _open_rings(
 ) -> tuple[dict[str, tuple[str, Joint]], list[Closure]]:
     """Cut every ring of joints at its first link whose joint loses nothing by it."""
     held, opened = dict(joints), []
+    places = {name: place for place, name in enumerate(parts)}
+    clear: set[str] = set()  # links that lead to a root
     for name in parts:
-        path: list[str] = []
+        path: dict[str, int] = {}
         link: str | None = name
-        while link is not None and link in held and link not in path:
-            path.append(link)
+        while link is not None and link in held and link not in path and link not in clear:
+            path[link] = len(path)
             link = _parent_of(held[link][1])
         if link is not None and link in path:
-            ring = set(path[path.index(link) :])
-            inside = [each for each in parts if each in ring]
+            inside = sorted(list(path)[path[link] :], key=places.__getitem__)
             first = min(inside, key=lambda each: bool(lost_in_loop(held[each][1])))
             scoped, joint = held.pop(first)
             opened.append(Closure(scoped, joint, joint.pose))
+        clear.update(path)
     return held, opened
 
 

@@ -25,7 +25,7 @@ def link_handles(simulation: RunningState, model: Model) -> dict[str, LinkHandle
 
 def joint_handles(simulation: RunningState, model: Model) -> dict[str, JointHandle]:
     """Return the movable joints of a model, by name within it."""
-    moving = set(simulation.engine.joints.names)
+    moving = simulation.engine.joints
     return {
         name_within(placed.scope, model.name, joint.name): JointHandle(
             simulation, f"{placed.scope}::{joint.name}"

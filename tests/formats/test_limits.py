@@ -1,6 +1,9 @@
 """Limits of descriptions: each is one error that names it, within seconds."""
 
+import time
+
 import pytest
+from xml_samples import robot, sdf, urdf_joint, urdf_link
 
 from gazelle import Simulation, formats
 from gazelle.engines.mujoco.compiler import free_bodies
@@ -53,3 +56,80 @@ def test_a_world_of_too_many_things_that_move_is_refused(monkeypatch):
     world = formats.load_string(f"<sdf version='1.6'><world name='w'>{models}</world></sdf>")
     with pytest.raises(EngineError, match="54 coordinates of motion, more than the limit of 50"):
         Simulation(world)
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "joints", "said"),
+    [
+        ("MAX_CHAIN", 5, [(n, n + 1) for n in range(7)], "link 'm::l5' hangs on 5 others"),
+        ("MAX_SOLIDS", 6, [(0, n) for n in range(1, 8)], "8 links that collide, more than"),
+    ],
+)
+def test_a_model_of_too_many_parts_is_refused(monkeypatch, name, value, joints, said):
+    monkeypatch.setattr(free_bodies, name, value)
+    shape = (
+        "<collision name='c'><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>"
+    )
+    links = "".join(f"<link name='l{n}'>{shape}</link>" for n in range(8))
+    held = "".join(
+        f"<joint name='j{a}{b}' type='revolute'><parent>l{a}</parent><child>l{b}</child>"
+        "<axis><xyz>0 0 1</xyz></axis></joint>"
+        for a, b in joints
+    )
+    world = formats.load_string(
+        sdf(f"<world name='w'><model name='m'>{links}{held}</model></world>")
+    )
+    with pytest.raises(EngineError, match=said):
+        Simulation(world)
+
+
+@pytest.mark.parametrize("outer", ["m" * 3000, "m" * 1500, "<xacro>"])
+def test_a_name_that_would_be_in_the_names_of_all_parts_is_refused(outer):
+    if outer == "<xacro>":
+        text = "<robot name='r' xmlns:xacro='x'><link name=\"${'m' * 3000}\"/></robot>"
+    else:
+        text = sdf(f"<model name='{outer}'><link name='{'l' * 1000}'/></model>")
+    with pytest.raises(FormatError, match="has at most 2,000 characters") as caught:
+        formats.load_string(text)
+    assert len(str(caught.value)) < 2000
+
+
+def test_the_place_of_an_element_is_short():
+    nested = (
+        "".join(f"<model name='m{n}{'x' * 15}'>" for n in range(99)) + "<link/>" + "</model>" * 99
+    )
+    with pytest.raises(FormatError) as caught:
+        formats.load_string(sdf(nested))
+    assert len(str(caught.value)) < 2000
+
+
+def test_what_takes_the_square_of_a_number_elsewhere_takes_little_here():
+    """Cases of 1,000 parts; with a search for each part they would take 16 s together."""
+    number = 1000
+    links = "".join(urdf_link(f"l{n}") for n in range(number))
+    star = "".join(urdf_joint(f"j{n}", "l0", f"l{n}", "continuous") for n in range(1, number))
+    ring = "".join(
+        f"<joint name='j{n}' type='revolute'><parent>l{n}</parent><child>l{n ^ 1}</child>"
+        "<axis><xyz>0 0 1</xyz></axis></joint>"
+        for n in range(number)
+    )
+    lost = ring.replace("<parent>l", "<parent>x")
+    bodies = "".join(f"<link name='l{n}'/>" for n in range(number))
+    models = "".join(MODEL.format(n) for n in range(number))
+    start = time.process_time()
+    assert not [
+        each for each in formats.check_string(robot(links + star)) if each.severity == "error"
+    ]
+    assert len(formats.check_string(sdf(f"<world name='w'>{models}</world>"))) == 0
+    for joints in (ring, lost):
+        formats.check_string(sdf(f"<model name='m'>{bodies}{joints}</model>"))
+    assert time.process_time() - start < 5.0
+
+
+def test_a_file_over_the_limit_is_not_read_a_second_time_for_mending(monkeypatch):
+    monkeypatch.setattr("gazelle.formats.xml.MAX_XML_ELEMENTS", 10)
+    monkeypatch.setattr("gazelle.formats.xml.well_formed", None)
+    with pytest.raises(FormatError, match="limit of 10 elements") as caught:
+        formats.load_string(sdf("<model name='m'>" + "<link name='l'/>" * 20 + "</model>"))
+    assert caught.value.line == 3
+    assert caught.value.hint

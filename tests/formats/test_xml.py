@@ -108,13 +108,13 @@ def test_depth_is_limited():
 
 
 def test_the_number_of_elements_is_limited(monkeypatch):
-    monkeypatch.setattr(xml, "MAX_ELEMENTS", 10)
-    with pytest.raises(FormatError, match="more than 10 elements"):
+    monkeypatch.setattr(xml, "MAX_XML_ELEMENTS", 10)
+    with pytest.raises(FormatError, match="limit of 10 elements"):
         xml.parse("<a>" + "<b/>" * 10 + "</a>", name="a")
 
 
 def test_size_is_limited(monkeypatch, tmp_path):
-    monkeypatch.setattr(xml, "MAX_BYTES", 5)
+    monkeypatch.setattr(xml, "MAX_XML_BYTES", 5)
     (tmp_path / "a.sdf").write_text("<aaaaaaaa/>")
     for read in (lambda: xml.read_file(tmp_path / "a.sdf"), lambda: xml.parse("<aaaa/>", name="a")):
         with pytest.raises(FormatError, match="larger than 5 bytes"):

@@ -208,21 +208,20 @@ class RunningWorlds:
 
     def axes_at_zero(self, joint: str) -> int:
         """Return the number of axes of a joint in uncompiled worlds, which are at zero; 0 if compiled."""
-        if self.revision:
-            return 0
+        return 0 if self.revision else self._drafted_joints().get(joint, 0)
+
+    def joint_names(self) -> Mapping[str, Any]:
+        """Return a mapping from scoped names of movable joints; the same one until a change."""
+        return self.known().joints if self.revision else self._drafted_joints()
+
+    def _drafted_joints(self) -> Mapping[str, int]:
+        """Return the number of axes of each movable joint of uncompiled worlds."""
         parts, known = self.bodies(), self._drafted_axes
         if known is None or known[0] is not parts:
             joints = ((b.joint_name, b.joint) for each in parts.values() for b in each)
-            axes = {name: AXES.get(each.type, 0) for name, each in joints if each is not None}
-            known = self._drafted_axes = parts, axes
-        return known[1].get(joint, 0)
-
-    def joint_names(self) -> tuple[str, ...]:
-        """Return scoped names of movable joints."""
-        if self.revision:
-            return tuple(self.known().joints)
-        every = (body for parts in self.bodies().values() for body in parts)
-        return tuple(b.joint_name for b in every if b.joint is not None and b.joint.type != "fixed")
+            moving = ((name, j.type) for name, j in joints if j is not None and j.type != "fixed")
+            known = self._drafted_axes = parts, {name: AXES.get(t, 0) for name, t in moving}
+        return known[1]
 
     def change(self, recipe: CompilerInput) -> None:
         """Replace the model, and keep the states of what both have."""
@@ -271,7 +270,7 @@ class RunningWorlds:
         if self.revision:
             self.layout.joint(joint)  # motors do not change the layout of joints
         else:
-            look_up("joint", joint, dict.fromkeys(self.joint_names()))
+            look_up("joint", joint, self.joint_names())
         motor = motor_of(joint, max_effort, self.bodies(), recipe.kinematic)
         if joint in self.recipe.motors and self.revision:
             self.set_parameter("motor_effort", joint, motor.max_effort)

@@ -3,31 +3,36 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from gazelle.description import Joint, JointAxis, JointPhysics, Model, World
 from gazelle.errors import did_you_mean
 from gazelle.formats.lint.diagnostic import Diagnostic
-from gazelle.kinematics.mimics import leaders_of, mimic_cycle
+from gazelle.kinematics.mimics import leaders_of, mimic_cycles
+
+_USUAL = JointPhysics()
 
 
 def lint(world: World) -> Iterator[Diagnostic]:
     """Yield findings on every joint of a model that moves."""
     for top in world.models:
         for placed in top.walk():
+            links = _link_names(placed.model)
+            leaders = leaders_of((each.name, each) for each in placed.model.joints)
+            cycles = mimic_cycles(leaders)
+            known = {each.name for each in placed.model.joints} if leaders else set()
             for joint in placed.model.joints:
                 name = f"{placed.scope}::{joint.name}"
-                yield from _links(name, joint, placed.model)
+                yield from _links(name, joint, links)
                 yield from _ode_terms(name, joint)
                 for axis in joint.axes:
                     yield from _axis(name, joint, axis)
-                    yield from _mimic(name, joint, axis, placed.model)
+                    yield from _mimic(name, joint, axis, known, cycles)
             if top.static and placed.model.joints:
                 yield _in_static(placed.scope, placed.model)
 
 
-def _links(name: str, joint: Joint, model: Model) -> Iterator[Diagnostic]:
-    known = _link_names(model)
+def _links(name: str, joint: Joint, known: set[str]) -> Iterator[Diagnostic]:
     for role, link in (("parent", joint.parent), ("child", joint.child)):
         if link != "world" and link not in known:
             yield Diagnostic(
@@ -49,7 +54,7 @@ def _link_names(model: Model, prefix: str = "") -> set[str]:
 
 def _ode_terms(name: str, joint: Joint) -> Iterator[Diagnostic]:
     """Yield a diagnostic for terms that only ODE's solver uses."""
-    given, usual = joint.physics, JointPhysics()
+    given, usual = joint.physics, _USUAL
     terms = [
         term
         for term in ("fudge_factor", "cfm", "erp", "suspension_cfm", "suspension_erp")
@@ -110,10 +115,11 @@ def _axis(name: str, joint: Joint, axis: JointAxis) -> Iterator[Diagnostic]:
         )
 
 
-def _mimic(name: str, joint: Joint, axis: JointAxis, model: Model) -> Iterator[Diagnostic]:
+def _mimic(
+    name: str, joint: Joint, axis: JointAxis, known: set[str], cycles: Mapping[str, str]
+) -> Iterator[Diagnostic]:
     if axis.mimic is None:
         return
-    known = {other.name for other in model.joints}
     if axis.mimic.joint not in known:
         yield Diagnostic(
             "mimic-leader",
@@ -122,11 +128,10 @@ def _mimic(name: str, joint: Joint, axis: JointAxis, model: Model) -> Iterator[D
             did_you_mean(axis.mimic.joint, known),
             joint.source,
         )
-    circle = mimic_cycle(joint.name, leaders_of((each.name, each) for each in model.joints))
-    if circle:
+    if joint.name in cycles:
         yield Diagnostic(
             "mimic-cycle",
-            f"joint '{name}' mimics itself: {' -> '.join(circle)}",
+            f"joint '{name}' mimics itself: {cycles[joint.name]}",
             "none of these joints leads, so nothing can say where they are",
             "let one of them mimic no other",
             joint.source,

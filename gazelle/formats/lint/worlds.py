@@ -43,8 +43,9 @@ def _step(world: World) -> Iterator[Diagnostic]:
 
 def _contacts(world: World) -> Iterator[Diagnostic]:
     step = world.profile.max_step_size
+    masses = {id(top): _mass(top) for top in world.models}
     for place in moving_links_of(world):
-        mass = _mass(place.top)
+        mass = masses[id(place.top)]
         for collision in place.link.collisions:
             stiffness = collision.surface.contact.kp
             if not 0.0 < stiffness < _RIGID:

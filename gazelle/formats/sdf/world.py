@@ -51,10 +51,10 @@ _MAGNETIC = (5.5645e-6, 22.8758e-6, -42.3884e-6)
 
 @dataclass(slots=True)
 class _Contents:
-    """Models and lights of a world, those of includes too, in file order."""
+    """Models by name and lights of a world, those of includes too, in file order."""
 
     scope: Scope
-    drafts: list[ModelFrames] = field(default_factory=list)
+    drafts: dict[str, ModelFrames] = field(default_factory=dict)
     lights: list[Light] = field(default_factory=list)
 
 
@@ -66,7 +66,7 @@ def read_world(node: Parameters, version: Version, reading: Reading) -> World:
     camera = node.find("gui/camera")
     world = World(
         name=values.attribute(node, "name"),
-        models=tuple(read_model(draft, scope, reading) for draft in contents.drafts),
+        models=tuple(read_model(draft, scope, reading) for draft in contents.drafts.values()),
         physics=tuple(map(read_physics, node.find_all("physics"))),
         gravity=_since_1_6(node, "gravity", _GRAVITY),
         magnetic_field=_since_1_6(node, "magnetic_field", _MAGNETIC),
@@ -109,12 +109,12 @@ def _collect(node: Parameters, version: Version, reading: Reading) -> _Contents:
 
 
 def _keep(contents: _Contents, draft: ModelFrames, reading: Reading) -> None:
-    if any(other.name == draft.name for other in contents.drafts):
+    if draft.name in contents.drafts:
         reading.fault(
             f"there is already a model named '{draft.name}': this one is left out", draft.node
         )
         return
-    contents.drafts.append(draft)
+    contents.drafts[draft.name] = draft
     add_model(contents.scope, draft)
 
 

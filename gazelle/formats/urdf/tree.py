@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from gazelle.description import Inertial, Parameters, Pose
-from gazelle.errors import FormatError, did_you_mean
+from gazelle.errors import FormatError, did_you_mean, few
 from gazelle.formats import values
 from gazelle.formats.reading import Reading
 from gazelle.formats.urdf.elements import read_inertial
@@ -157,7 +157,7 @@ def _root(root: Parameters, links: dict[str, UrdfLink], graph: JointGraph[UrdfJo
     if len(tops) > 1:
         raise values.fail(
             links[tops[1]].node if tops[1] in links else root,
-            f"the robot has {len(tops)} roots: {', '.join(tops)}",
+            f"the robot has {len(tops)} roots: {few(tops)}",
             hint="connect all of them but one by joints",
         )
     return tops[0]
@@ -167,8 +167,8 @@ def _refuse_loops(top: str, links: dict[str, UrdfLink], graph: JointGraph[UrdfJo
     reached = {top, *(joint.child for joint in graph.outwards(top))}
     for joint in graph.holders.values():
         if joint.child not in reached:
-            circle = ", ".join(name for name in links if name not in reached)
-            raise values.fail(joint.node, f"these links form a joint loop: {circle}")
+            circle = [name for name in links if name not in reached]
+            raise values.fail(joint.node, f"these links form a joint loop: {few(circle)}")
 
 
 def lumps(joint: UrdfJoint, extensions: Extensions) -> bool:
@@ -185,17 +185,18 @@ def bodies(tree: UrdfTree, extensions: Extensions) -> list[LumpedLink]:
     """Return all bodies, parents before children, without the world."""
     done: list[LumpedLink] = []
     if tree.root == WORLD:
-        waiting = [
+        first = [
             _child_of(tree, joint, LumpedLink(UrdfLink(WORLD, None, joint.node), Pose()), Pose())
             for joint in tree.below.get(WORLD, ())
         ]
     else:
-        waiting = [LumpedLink(tree.links[tree.root], Pose())]
+        first = [LumpedLink(tree.links[tree.root], Pose())]
+    waiting = first[::-1]
     while waiting:
-        body = waiting.pop(0)
+        body = waiting.pop()
         _gather(tree, body, extensions)
         done.append(body)
-        waiting = [*body.children, *waiting]
+        waiting.extend(reversed(body.children))
     return done
 
 

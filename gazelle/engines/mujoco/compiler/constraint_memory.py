@@ -11,17 +11,26 @@ _FOR_SHAPE = 32 * 1024
 Four contacts of 600 bytes, and three rows of ten numbers for each, are a third of it.
 """
 
+_LARGE, _MOST = 10_000, 4 << 30
+"""Coordinates of motion for which MuJoCo would reserve more than this number of bytes.
 
-def with_memory(spec: mujoco.MjSpec, compiled: mujoco.MjModel) -> mujoco.MjModel:
-    """Return a model with memory for the constraints of all its shapes.
+It reserves by their square, for 24,000 of them 23 GB, which systems refuse.
+"""
+
+
+def compile_with_memory(spec: mujoco.MjSpec, coordinates: int) -> mujoco.MjModel:
+    """Return a compiled model with memory for the constraints of all its shapes.
 
     MuJoCo reckons by degrees of freedom, and leaves out contacts where that is too little: a wheel
     that is a mesh of 900 convex pieces has thousands. Memory that is not used costs nothing.
 
     Args:
         spec: Specification; its size of memory is set.
-        compiled: Model compiled from it.
+        coordinates: Number of coordinates of motion.
     """
+    if coordinates > _LARGE:
+        spec.memory = _MOST
+    compiled = spec.compile()
     moving = compiled.body_weldid[compiled.geom_bodyid] != 0
     colliding = (compiled.geom_contype | compiled.geom_conaffinity) != 0
     required = _FOR_SHAPE * int(np.count_nonzero(moving & colliding))

@@ -17,7 +17,7 @@ from gazelle.description import Inertial, Joint, Mimic, Pose
 from gazelle.engines.mujoco.compiler.inertia import inertia_of, possible
 from gazelle.engines.mujoco.compiler.joints import add_joint
 from gazelle.errors import EngineError, EngineWarning, did_you_mean, located
-from gazelle.kinematics.mimics import leaders_of, refuse_cycle
+from gazelle.kinematics.mimics import leaders_of, mimic_cycles, refuse_cycle
 from gazelle.kinematics.tree import Closure, TreeLink, lost_in_loop
 
 # Time constant of a coupling, in physics steps, and its damping ratio.
@@ -40,7 +40,8 @@ def add_couplings(spec: mujoco.MjSpec, bodies: Iterable[TreeLink], time_step: fl
     """
     bodies = list(bodies)
     axes = {body.joint_name: len(body.joint.axes) for body in bodies if body.joint is not None}
-    leaders = leaders_of((body.joint_name, body.joint) for body in bodies if body.joint is not None)
+    joints = ((body.joint_name, body.joint) for body in bodies if body.joint is not None)
+    cycles = mimic_cycles(leaders_of(joints))
     for body in bodies:
         joint = body.joint
         if joint is None:
@@ -51,7 +52,7 @@ def add_couplings(spec: mujoco.MjSpec, bodies: Iterable[TreeLink], time_step: fl
             if axis.mimic is not None:
                 mimic = axis.mimic
                 _require_leader(body.joint_name, joint, mimic, axes)
-                refuse_cycle(body.joint_name, joint, leaders, EngineError)
+                refuse_cycle(body.joint_name, joint, cycles, EngineError)
                 follower = _coordinate(body.joint_name, index)
                 leader = _coordinate(mimic.joint, mimic.axis)
                 start = mimic.offset - mimic.multiplier * mimic.reference

@@ -8,7 +8,7 @@ from collections.abc import Collection, Mapping
 import mujoco
 
 from gazelle.description import Box, Capsule, Cylinder, Ellipsoid, Model, Sphere, World
-from gazelle.engines.limits import MAX_COORDINATES
+from gazelle.engines.limits import MAX_CHAIN, MAX_COORDINATES, MAX_SOLIDS
 from gazelle.engines.mujoco.compiler.motors import AXES
 from gazelle.errors import EngineError, EngineWarning
 from gazelle.kinematics.tree import TreeLink
@@ -29,25 +29,60 @@ _FAST = 20.0
 _MOST_PAIRS = 200_000
 
 
-def check_coordinates(bodies: Mapping[str, list[TreeLink]]) -> None:
+def check_size(bodies: Mapping[str, list[TreeLink]]) -> None:
     """Check that a world is no larger than the solver can hold, before it is compiled for minutes.
 
     Args:
         bodies: Of all models, by their names.
 
     Raises:
-        EngineError: It has more than 50,000 coordinates of motion.
+        EngineError: It has more than ``MAX_COORDINATES`` coordinates of motion, a chain of more
+            than ``MAX_CHAIN`` links, or a model with more than ``MAX_SOLIDS`` that collide.
     """
-    every = [body for parts in bodies.values() for body in parts]
-    joints = [body.joint for body in every if body.joint is not None]
-    count = sum(6 for body in every if body.root == "free")
-    count += sum(AXES.get(joint.type, 0) for joint in joints)
+    for parts in bodies.values():
+        _check_chains(parts)
+        _check_solids(parts)
+    count = coordinate_count(bodies)
     if count > MAX_COORDINATES:
         raise EngineError(
             f"the world has {count:,} coordinates of motion, more than the limit of "
             f"{MAX_COORDINATES:,}",
             hint="let models that nothing shall move be static",
         )
+
+
+def _check_chains(parts: list[TreeLink]) -> None:
+    """Check that no link hangs on too many others; parents stand before children."""
+    depths: dict[str, int] = {}
+    for body in parts:
+        depths[body.name] = depth = depths.get(body.parent or "", 0) + 1
+        if depth > MAX_CHAIN:
+            raise EngineError(
+                f"link '{body.name}' hangs on {depth - 1:,} others, one on the other; the limit is "
+                f"{MAX_CHAIN:,} links",
+                source=body.link.source,
+                hint="join some of them by fixed joints",
+            )
+
+
+def _check_solids(parts: list[TreeLink]) -> None:
+    """Check the number of links of a model that collide and move."""
+    solid = [body for body in parts if body.link.collisions and body.root != "static"]
+    if len(solid) > MAX_SOLIDS:
+        raise EngineError(
+            f"the model has {len(solid):,} links that collide, more than the limit of "
+            f"{MAX_SOLIDS:,}",
+            source=solid[MAX_SOLIDS].link.source,
+            hint="leave out collisions of links that touch nothing",
+        )
+
+
+def coordinate_count(bodies: Mapping[str, list[TreeLink]]) -> int:
+    """Return the number of coordinates of motion of models, given by their names."""
+    every = [body for parts in bodies.values() for body in parts]
+    joints = [body.joint for body in every if body.joint is not None]
+    free = sum(6 for body in every if body.root == "free")
+    return free + sum(AXES.get(joint.type, 0) for joint in joints)
 
 
 def allows_sleep(world: World, kinematic: Collection[str] = ()) -> bool:

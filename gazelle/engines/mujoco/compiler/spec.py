@@ -12,7 +12,7 @@ import mujoco
 
 from gazelle.description import Collision, Inertial, Model, Plane, Pose, World
 from gazelle.engines.free_links import warn_of_free_links, with_free_links
-from gazelle.engines.mujoco.compiler.constraint_memory import with_memory
+from gazelle.engines.mujoco.compiler.constraint_memory import compile_with_memory
 from gazelle.engines.mujoco.compiler.contact_pairs import (
     ContactGeom,
     Spring,
@@ -25,7 +25,8 @@ from gazelle.engines.mujoco.compiler.contact_pairs import (
 from gazelle.engines.mujoco.compiler.description_edits import with_frame_link
 from gazelle.engines.mujoco.compiler.equality_constraints import add_closure, add_couplings, at_rest
 from gazelle.engines.mujoco.compiler.free_bodies import (
-    check_coordinates,
+    check_size,
+    coordinate_count,
     limit_speculative_contacts,
 )
 from gazelle.engines.mujoco.compiler.gyroscopic_forces import swings, tumbling
@@ -151,7 +152,7 @@ class Draft:
             EngineError: Something in the description cannot be simulated.
         """
         try:
-            compiled = with_memory(self.spec, self.spec.compile())
+            compiled = compile_with_memory(self.spec, coordinate_count(self.bodies))
         except ValueError as error:
             raise EngineError(f"MuJoCo cannot simulate this world: {_first_line(error)}") from error
         if as_written:
@@ -216,7 +217,7 @@ def draft_world(recipe: CompilerInput) -> Draft:
     set_options(spec, recipe.world, recipe.time_step, recipe.kinematic)
     trees = trees_of(recipe)
     bodies = {name: tree.bodies for name, tree in trees.items()}
-    check_coordinates(bodies)
+    check_size(bodies)
     held = {body.name for parts in bodies.values() for body in parts if body.root is not None}
     slips = slipping(described_slips(bodies.values()), recipe.slip_links - held)
     builder = _SpecBuilder(spec, recipe, bodies, slips)

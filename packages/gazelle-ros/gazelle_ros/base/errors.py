@@ -7,9 +7,10 @@ about it (hint). The text is one line: ``FILE:LINE: <ELEMENT>: MESSAGE; HINT``.
 from __future__ import annotations
 
 import difflib
+import itertools
 import re
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence, Sized
 from typing import Protocol
 
 _LEAST_LETTERS = 4  # of a word that is looked for in longer names
@@ -115,6 +116,7 @@ def located(message: str, source: FilePlace | None) -> str:
 _CLOSE = 0.6
 _REST_CLOSE = 0.75
 _MANY = 20
+_MOST_COMPARED, _LONGEST_COMPARED = 1_000, 200  # names, and letters of each
 _COMMON = 1 / 8
 _WORD = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])|\d+|[^\W\d_]+")
 
@@ -154,7 +156,9 @@ def closest_of(name: str, known: Iterable[str]) -> str | None:
     A word of a longer name is close to it, as ``burger`` is to ``turtlebot3_burger``, and ``empty``
     to ``empty_world``.
     """
-    names = sorted(known)
+    names = sorted(each for each in known if len(each) <= _LONGEST_COMPARED)
+    if not 0 < len(names) <= _MOST_COMPARED or len(str(name)) > _LONGEST_COMPARED:
+        return None  # a comparison takes microseconds for each pair of letters
     close = _closest(str(name), names) or _longer(str(name), names) or _shorter(str(name), names)
     return None if close is None else f"did you mean '{close}'?"
 
@@ -179,11 +183,17 @@ def did_you_mean(name: str, known: Iterable[str]) -> str:
     Names must be alike in what makes them different: words that many of the known names have,
     such as ``libgazebo``, ``ros`` and ``so``, do not count.
     """
+    if isinstance(known, Sized) and len(known) > _MOST_COMPARED:
+        first = list(itertools.islice(known, _MANY))
+        return f"there are: {', '.join(first)} and {len(known) - _MANY} more"
     names = sorted(known)
     close = closest_of(name, names)
     if close is not None:
         return close
-    if not names:
-        return "there are none"
-    more = "" if len(names) <= 20 else f" and {len(names) - 20} more"
-    return "there are: " + ", ".join(names[:20]) + more
+    return f"there are: {few(names)}" if names else "there are none"
+
+
+def few(names: Sequence[str]) -> str:
+    """Return the first 20 of several names as text, and the number of the others."""
+    more = "" if len(names) <= _MANY else f" and {len(names) - _MANY} more"
+    return ", ".join(names[:_MANY]) + more
