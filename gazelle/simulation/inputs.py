@@ -15,6 +15,10 @@ from gazelle.kinematics.tree import FARTHEST
 # Parameters of several numbers, which are not one an axis.
 VECTORS = ("gravity", "link_centre", "link_inertia", "wheel_slip")
 
+# Indices of world 0 alone.
+FIRST_WORLD = np.zeros(1, np.intp)
+FIRST_WORLD.setflags(write=False)
+
 # A quaternion's largest number is taken as it is up to this number of decades from one.
 _FAR_FROM_UNIT = 100.0
 

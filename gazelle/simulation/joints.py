@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.engines import Wrench
 from gazelle.errors import SimulationError
-from gazelle.simulation.inputs import chosen, finite, numbers, size_of
+from gazelle.simulation.inputs import FIRST_WORLD, chosen, finite, numbers, size_of
 from gazelle.simulation.parameter_changes import set_parameters
 from gazelle.simulation.running_state import RunningState
 from gazelle.simulation.state_lock import between_steps
@@ -37,12 +36,12 @@ class JointHandle:
         Setting it teleports the joint, to its limits at most, as in Gazebo. It takes a number
         an axis, of a ball joint a quaternion (x, y, z, w).
         """
-        return float(self._row.position(np.array([0]))[0, 0])
+        return float(self._row.position(FIRST_WORLD)[0, 0])
 
     @position.setter
     @between_steps
     def position(self, value: ArrayLike) -> None:
-        width = self.positions(np.array([0])).shape[1]
+        width = self.positions(FIRST_WORLD).shape[1]
         what = f"the position of joint '{self.name}'"
         self._row.set_position(finite(what, value, width, self._engine.nworld))
 
@@ -50,7 +49,7 @@ class JointHandle:
     @between_steps
     def velocity(self) -> float:
         """Velocity of the first axis [m/s or rad/s]; setting it changes the state at once."""
-        return float(self._row.velocity(np.array([0]))[0, 0])
+        return float(self._row.velocity(FIRST_WORLD)[0, 0])
 
     @velocity.setter
     @between_steps
@@ -74,7 +73,7 @@ class JointHandle:
     @between_steps
     def axes(self) -> int:
         """Number of the joint's degrees of freedom: the length of a velocity or an effort."""
-        return int(self._row.velocity(np.array([0])).shape[1])
+        return int(self._row.velocity(FIRST_WORLD).shape[1])
 
     @between_steps
     def apply_effort(
@@ -135,7 +134,7 @@ class JointHandle:
 
         In m or rad, shape as `positions` or (axes,).
         """
-        width, some = self.positions(np.array([0])).shape[1], self._some(worlds)
+        width, some = self.positions(FIRST_WORLD).shape[1], self._some(worlds)
         count = size_of(some, self._engine.nworld)
         what = f"the position of joint '{self.name}'"
         self._row.set_position(finite(what, position, width, count), some)

@@ -13,7 +13,15 @@ from gazelle.description import Inertia, Link, Pose
 from gazelle.engines import Motion, Placement
 from gazelle.errors import SimulationError, SimulationWarning
 from gazelle.rotations import from_yaw
-from gazelle.simulation.inputs import chosen, finite, motion, numbers, placement, size_of
+from gazelle.simulation.inputs import (
+    FIRST_WORLD,
+    chosen,
+    finite,
+    motion,
+    numbers,
+    placement,
+    size_of,
+)
 from gazelle.simulation.parameter_changes import set_parameters
 from gazelle.simulation.running_state import RunningState
 from gazelle.simulation.state_lock import between_steps
@@ -37,8 +45,8 @@ class LinkHandle:
     @between_steps
     def pose(self) -> Pose:
         """Pose in world 0."""
-        place = self._row.placement(np.array([0]))
-        return Pose.from_quaternion(tuple(place.position[0]), tuple(place.quaternion[0]))
+        place = self._row.placement(FIRST_WORLD)
+        return Pose.from_quaternion(place.position[0].tolist(), place.quaternion[0].tolist())
 
     @between_steps
     def placement(self, worlds: Worlds | None = None) -> Placement:

@@ -18,7 +18,7 @@ from gazelle.rendering import LiveScene
 from gazelle.sensors import SensorModel
 from gazelle.simulation import model_handles
 from gazelle.simulation.events import Events
-from gazelle.simulation.inputs import chosen, finite, motion, placement, size_of
+from gazelle.simulation.inputs import FIRST_WORLD, chosen, finite, motion, placement, size_of
 from gazelle.simulation.joints import JointHandle
 from gazelle.simulation.links import LinkHandle, orientation_of
 from gazelle.simulation.mappings import Named
@@ -193,14 +193,14 @@ class Robot(Ports):
     @between_steps
     def pose(self) -> Pose:
         """Pose of the model frame in world 0."""
-        place = self.placement(np.array([0]))
-        return Pose.from_quaternion(tuple(place.position[0]), tuple(place.quaternion[0]))
+        place = self._row.placement(FIRST_WORLD)
+        return Pose.from_quaternion(place.position[0].tolist(), place.quaternion[0].tolist())
 
     @property
     @between_steps
     def twist(self) -> Motion:
         """Velocity of the model frame in world 0, in the world frame."""
-        motion = self.motion(np.array([0]))
+        motion = self.motion(FIRST_WORLD)
         return Motion(motion.linear[0], motion.angular[0])
 
     @property

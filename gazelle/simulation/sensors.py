@@ -87,15 +87,19 @@ class SampledSensor:
 
         The first call measures at once and wakes the sensor.
         """
-        return self.reading(self.latest()[one_world(world, self._simulation.nworld)])
+        values = self._woken()[one_world(world, self._lock.nworld)]
+        return self._model.reading(values, self._stamp)
 
     @between_steps
     def latest(self) -> NDArray[Any]:
         """Return the last reading of all worlds, shape (nworld, channels); wakes the sensor."""
+        return self._woken()
+
+    def _woken(self) -> NDArray[Any]:
         if not self._awake:
             self._awake = True
             self._lock.changes += 1
-        return self.current()
+        return self._current()
 
     @between_steps
     def current(self) -> NDArray[Any]:
@@ -103,6 +107,9 @@ class SampledSensor:
 
         Measures if it sleeps or never measured.
         """
+        return self._current()
+
+    def _current(self) -> NDArray[Any]:
         if not self.awake:
             return self.measure()
         self._catch_up()

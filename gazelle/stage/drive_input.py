@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from gazelle.array_types import Floats, Worlds
@@ -38,8 +37,9 @@ class DriveInput(TwistInput):
         super().send(linear, angular, worlds)
         some = chosen(worlds, len(self.linear))
         rows = slice(None) if some is None else some
-        velocities = np.column_stack((self.linear[rows, :2], self.angular[rows, 2]))
-        self._commands()[rows] = velocities
+        commands = self._commands()
+        commands[rows, :2] = self.linear[rows, :2]
+        commands[rows, 2] = self.angular[rows, 2]
 
     @between_steps
     def clear(self, worlds: Worlds | None = None) -> None:

@@ -28,7 +28,7 @@ def sensor_models(fleet: StageFleet, model: Model) -> list[tuple[Sensor, SensorM
         return []
     known = {sensor.name: sensor for link in model.links for sensor in link.sensors}
     rangers: list[tuple[Sensor, SensorModel]] = [
-        (known[name], _ranger_model(fleet, robot.name, which, number))
+        (known[name], RangerModel(fleet, robot.name, which, number))
         for which, ranger in enumerate(robot.rangers)
         for number in range(len(ranger.sensors))
         if (name := ranger.sensor_name(number)) in known
@@ -81,17 +81,3 @@ def _odometry_of(fleet: StageFleet, name: str, frames: tuple[str, str]) -> Odome
 def _camera_model(fleet: StageFleet, name: str, which: int, sensor: Sensor) -> SensorModel:
     (camera,) = sensor.cameras
     return StageCameraModel(camera, lambda worlds: fleet.pictures([name], which, worlds))
-
-
-def _ranger_model(fleet: StageFleet, name: str, which: int, number: int) -> RangerModel:
-    found: tuple[int, tuple[int, int]] = (-1, (0, 0))
-
-    def ranges() -> Floats:
-        nonlocal found
-        if found[0] != fleet.engine.revision:  # other models may have come or gone
-            found = fleet.engine.revision, fleet.named[name].rangers[which].places[number]
-        scanner, place = found[1]
-        seen: Floats = fleet.rangers.readings(scanner)[:, place]
-        return seen
-
-    return RangerModel(fleet.robot(name).rangers[which].sensors[number], ranges)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -48,7 +50,6 @@ class Rangers:
         ]
         self._made: dict[int, RangerScanner] = {}
         self._seen: dict[int, Floats] = {}
-        self._readings: dict[int, Floats] = {}
         self._changes = -1
 
     def scan(self, scanner: int) -> Floats:
@@ -59,25 +60,23 @@ class Rangers:
         """
         if self._changes != self._fleet.changes:  # something moved
             self._changes = self._fleet.changes
-            self._forget()
+            self._seen.clear()
         if scanner not in self._seen:
             self._seen[scanner] = self._scanner(scanner).scan()
         return self._seen[scanner]
 
-    def readings(self, scanner: int) -> Floats:
-        """Return ``scan`` with the meaning of ``LaserScan.ranges``: infinite for a miss.
+    def readings(self, scanner: int, places: int | slice | Sequence[int]) -> Floats:
+        """Return ranges of some sensors as of ``LaserScan``: a new array, infinite for a miss.
+
+        Args:
+            scanner: Scanner.
+            places: Its sensors; of one the axis of sensors is left out.
 
         Raises:
             SimulationError: There is no such scanner.
         """
-        seen = self.scan(scanner)  # forgets what is outdated
-        if scanner not in self._readings:
-            self._readings[scanner] = np.where(seen < self.fans[scanner].reach, seen, np.inf)
-        return self._readings[scanner]
-
-    def _forget(self) -> None:
-        self._seen.clear()
-        self._readings.clear()
+        seen = self.scan(scanner)[:, places]
+        return np.where(seen < self.fans[scanner].reach, seen, np.inf)
 
     def system(self, scanner: int) -> tuple[System, Floats] | None:
         """Return the native scan system and its output, a row a sensor; None if Python takes part.
@@ -100,7 +99,7 @@ class Rangers:
 
     def rewind(self) -> None:
         """Restart the random numbers."""
-        self._forget()
+        self._seen.clear()
         for stream in self._streams:
             stream.rewind()
         for made in self._made.values():
@@ -111,7 +110,7 @@ class Rangers:
         if worlds is None:
             self._seed = seed
             self._made.clear()
-        self._forget()
+        self._seen.clear()
         for stream in self._streams:
             stream.reseed(seed, worlds)
 
@@ -135,7 +134,7 @@ class Rangers:
 
     def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
         """Restore what ``state`` returned."""
-        self._forget()
+        self._seen.clear()
         parts = (self._streams, state["keys"], state["counters"], state["ticks"])
         for number, (stream, keys, counters, tick) in enumerate(zip(*parts, strict=True)):
             stream.keys[:], stream.counters[:] = keys, counters
