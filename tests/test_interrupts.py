@@ -10,6 +10,7 @@ import threading
 import time
 
 import pytest
+from ros.graph import until
 
 from gazelle_ros.base.interrupts import (
     Interrupted,
@@ -21,13 +22,6 @@ from gazelle_ros.base.interrupts import (
 )
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-
-
-def until(true):
-    end = time.monotonic() + 60
-    while not true():
-        assert time.monotonic() < end
-        time.sleep(0.001)
 
 
 def send(number, times=1):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import io
 import threading
 import time
@@ -90,6 +91,21 @@ def test_echo_ends_when_it_is_told(graph, make_node, out):
     running = Background(echo, graph, "/a", out, EchoOptions())
     time.sleep(0.2)
     running.end()
+
+
+class Full(io.StringIO):
+    """A file on a full disk."""
+
+    def write(self, text):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+
+def test_echo_ends_with_one_error_where_it_cannot_write(graph, make_node, caplog):
+    talker = make_node("talker").advertise("/a", STRING, latch=True)
+    talker.publish(STRING(data="hi"))
+    with pytest.raises(OSError, match="No space left"):
+        echo(graph, "/a", Full(), EchoOptions(), threading.Event())
+    assert not caplog.records
 
 
 def test_echo_of_a_missing_field_is_an_error(graph, make_node, out):

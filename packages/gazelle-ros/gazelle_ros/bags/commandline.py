@@ -14,6 +14,7 @@ from gazelle_ros import names
 from gazelle_ros.base.argument_types import positive_float, positive_int, seconds
 from gazelle_ros.base.interrupts import stopping
 from gazelle_ros.base.output import say, say_line
+from gazelle_ros.base.terminal import kept_terminal
 
 
 def configure_record(parser: argparse.ArgumentParser) -> None:
@@ -280,31 +281,36 @@ class _PlayStatus:
 @contextlib.contextmanager
 def _keys(player: Any, stop: threading.Event) -> Iterator[None]:
     """Handle keys of a terminal while it lasts: space pauses and continues, s steps."""
-    if not sys.stdin.isatty():
-        yield
-        return
-    import termios
-    import tty
+    with kept_terminal(sys.stdin) as there:
+        if not there:
+            yield
+            return
+        import tty
 
-    say("space: pause or go on, s: one message, Ctrl-C: end\n")
+        say("space: pause or go on, s: one message, Ctrl-C: end\n")
+        ended = threading.Event()
+        watcher = threading.Thread(target=_watch, args=(player, ended, stop), daemon=True)
+        tty.setcbreak(sys.stdin)
+        watcher.start()
+        try:
+            yield
+        finally:
+            ended.set()
+            watcher.join()
+
+
+def _watch(player: Any, ended: threading.Event, stop: threading.Event) -> None:
+    """Act on keys until the end, also of the terminal."""
     actions: dict[str, Callable[[], None]] = {" ": player.toggle, "s": player.step}
-    old = termios.tcgetattr(sys.stdin)
-    ended = threading.Event()
-
-    def watch() -> None:
-        while not (ended.is_set() or stop.is_set()):
-            if select.select([sys.stdin], [], [], 0.1)[0]:
-                actions.get(sys.stdin.read(1), lambda: None)()
-
-    watcher = threading.Thread(target=watch, daemon=True)
-    tty.setcbreak(sys.stdin)
-    watcher.start()
-    try:
-        yield
-    finally:
-        ended.set()
-        watcher.join()
-        termios.tcsetattr(sys.stdin, termios.TCSADRAIN, old)
+    while not (ended.is_set() or stop.is_set()):
+        if select.select([sys.stdin], [], [], 0.1)[0]:
+            try:
+                key = sys.stdin.read(1)
+            except OSError:
+                return
+            if not key:
+                return
+            actions.get(key, lambda: None)()
 
 
 def _quiet(text: str) -> None:

@@ -13,10 +13,8 @@ started if there is none.
 from __future__ import annotations
 
 import argparse
-import contextlib
 import os
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -24,6 +22,7 @@ from gazelle_ros.base.argument_types import port_number, positive_float
 from gazelle_ros.base.errors import Error
 from gazelle_ros.base.output import say_line
 from gazelle_ros.base.program import program_name
+from gazelle_ros.base.terminal import kept_terminal
 from gazelle_ros.base.writing import write_text
 
 if TYPE_CHECKING:
@@ -238,7 +237,8 @@ def _launch(args: argparse.Namespace, plan: LaunchPlan, packages: Packages) -> i
     if not args.no_summary:
         describe = describing.summary if args.verbose else describing.outline
         sys.stdout.write(f"{describe(plan)}\nROS_MASTER_URI={launch.master_uri}\n\n")
-    with _same_terminal(), launch, stopping(launch.end) as request:
+    # A node that read keys may be killed.
+    with kept_terminal(sys.stdin), launch, stopping(launch.end) as request:
         try:
             launch.start()
         except Error:
@@ -248,18 +248,3 @@ def _launch(args: argparse.Namespace, plan: LaunchPlan, packages: Packages) -> i
         say_line("shutting down")
     say_line("done")
     return code
-
-
-@contextlib.contextmanager
-def _same_terminal() -> Iterator[None]:
-    """Restore the terminal at the end, should a node that read keys be killed."""
-    if sys.stdin is None or not sys.stdin.isatty() or os.name != "posix":
-        yield
-        return
-    import termios
-
-    before = termios.tcgetattr(sys.stdin)
-    try:
-        yield
-    finally:
-        termios.tcsetattr(sys.stdin, termios.TCSANOW, before)

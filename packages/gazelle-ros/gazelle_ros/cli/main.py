@@ -8,6 +8,7 @@ import errno
 import io
 import os
 import re
+import signal
 import sys
 import traceback
 import warnings
@@ -18,7 +19,13 @@ from typing import TextIO
 
 from gazelle_ros import __version__
 from gazelle_ros.base.errors import Error, GazelleWarning, describe, did_you_mean
-from gazelle_ros.base.interrupts import end_process, exit_code, interruptible, requested
+from gazelle_ros.base.interrupts import (
+    Interrupted,
+    end_process,
+    exit_code,
+    interruptible,
+    requested,
+)
 from gazelle_ros.base.program import program_name, running
 from gazelle_ros.base.writing import naming
 from gazelle_ros.cli.commands import COMMANDS, Command
@@ -211,6 +218,9 @@ def _run(
         _discard_output()
         return DONE
     except Exception as error:  # noqa: BLE001  # the last resort: a user sees no traceback
+        if getattr(error, "errno", None) == errno.EIO and requested():
+            _discard_output()  # its terminal was closed
+            return exit_code(Interrupted(signal.SIGHUP))
         if debug:
             traceback.print_exc()
         _report(error)

@@ -118,7 +118,7 @@ def echo(
     topic, kind, path = found
     steps = parse_path(path)
     writer = Echo(out, options, steps, _leaf_type(kind, steps))
-    failed: list[RosError] = []
+    failed: list[RosError | OSError] = []
     with tool_node(graph) as node:
 
         def show(raw: Any) -> None:
@@ -127,10 +127,8 @@ def echo(
             try:
                 nanoseconds = node.clock.now()
                 writer.write(decode(raw), Time(nsecs=nanoseconds))
-            except RosError as error:
+            except (RosError, OSError) as error:  # the output is full, or closed
                 failed.append(error)
-            except BrokenPipeError:
-                stop.set()
             if failed or writer.done:
                 stop.set()
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import re
 import select
@@ -56,7 +57,8 @@ class Keyboard:
 
         if threading.current_thread() is threading.main_thread():
             signal.signal(signal.SIGCONT, signal.SIG_DFL)
-        termios.tcsetattr(self._number, termios.TCSANOW, self._before)
+        with contextlib.suppress(termios.error):  # it was closed
+            termios.tcsetattr(self._number, termios.TCSANOW, self._before)
 
     def wait(self, seconds: float) -> list[str] | None:
         """Return the keys pressed since the last time, waited for at most so long.
