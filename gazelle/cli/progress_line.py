@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import sys
+import threading
 import time
 from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from typing import TypeVar
 
 _FIRST = 2.0  # shorter work shows nothing [s]
+_ANNOUNCED = 0.6  # work of unknown length that takes longer is announced [s]
 _EVERY = 0.5  # on a terminal, where the line is rewritten [s]
 _LINE_EVERY = 10.0  # elsewhere, where each is a line of a log [s]
 
@@ -55,3 +58,19 @@ class ProgressLine:
                 self.update(number)
         finally:
             self.close()
+
+
+@contextmanager
+def announced(text: str) -> Iterator[None]:
+    """Print a line on standard error if what is done meanwhile takes more than a moment.
+
+    Args:
+        text: The work, such as ``loading robot.urdf``.
+    """
+    timer = threading.Timer(_ANNOUNCED, sys.stderr.write, [f"gazelle: {text}\n"])
+    timer.daemon = True
+    timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()

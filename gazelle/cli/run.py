@@ -28,6 +28,7 @@ from typing import TYPE_CHECKING
 from gazelle.cli.description_publisher import publishing_descriptions
 from gazelle.cli.grounding import add_ground
 from gazelle.cli.moveit_option import add_moveit, running_moveit, start_requested_controllers
+from gazelle.cli.progress_line import announced
 from gazelle.cli.rosbridge_option import add_rosbridge, running_rosbridge
 from gazelle.cli.spawning import parse_spawn, spawn
 from gazelle.cli.viewing import add_view, viewing
@@ -121,6 +122,23 @@ def run(args: argparse.Namespace) -> int:
         args.parser.error("--rosbridge requires --ros")
     if args.wander and args.ros:
         args.parser.error("--wander and --ros cannot be used together")
+    with announced(f"loading {args.file}"):
+        sim = _built(args)
+    with sim:
+        for plugin in args.system:
+            sim.load_plugin(plugin)
+        remarks = [spawn(sim, robot) for robot in args.spawn]
+        start_requested_controllers(sim, args)
+        step = f"step {1000 * sim.engine.time_step:g} ms"
+        sys.stdout.write(f"world '{sim.world.name}' ({args.engine}, {step}): {_listed(sim)}\n")
+        sys.stdout.writelines(f"{line}\n" for line in remarks if line)
+        say(_undriven(sim, args))
+        with viewing(sim, args) as page:
+            return _serve(sim, args, page) if args.ros else go(sim, args, page)
+
+
+def _built(args: argparse.Namespace) -> Simulation:
+    """Load the file, and return a simulation of it."""
     from gazelle import formats
     from gazelle.stage import stage_world
 
@@ -139,17 +157,7 @@ def run(args: argparse.Namespace) -> int:
         refuse_twin("stageros" if stage and args.engine == "planar" else "gazebo")
     from gazelle.simulation import Simulation
 
-    with Simulation(world, args.engine, seed=args.seed) as sim:
-        for plugin in args.system:
-            sim.load_plugin(plugin)
-        remarks = [spawn(sim, robot) for robot in args.spawn]
-        start_requested_controllers(sim, args)
-        step = f"step {1000 * sim.engine.time_step:g} ms"
-        sys.stdout.write(f"world '{sim.world.name}' ({args.engine}, {step}): {_listed(sim)}\n")
-        sys.stdout.writelines(f"{line}\n" for line in remarks if line)
-        say(_undriven(sim, args))
-        with viewing(sim, args) as page:
-            return _serve(sim, args, page) if args.ros else go(sim, args, page)
+    return Simulation(world, args.engine, seed=args.seed)
 
 
 def _take_from_file(args: argparse.Namespace, stage: StageWorld | None) -> None:

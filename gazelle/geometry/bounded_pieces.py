@@ -106,7 +106,7 @@ def _thickened(joined: Polygons, solid: Bools, skin: float) -> tuple[list[Floats
     Polygons without a width are left out; their triangles have the row -1.
     """
     surface, rims = joined.surface, joined.rims()
-    behind = np.split(behind_rims(surface, rims, solid, skin), np.cumsum(rims.sizes)[:-1])
+    behind = behind_rims(surface, rims, solid, skin)
     real = np.flatnonzero(widths_of(surface, rims) > ROUNDING * surface.size)
     row = np.full(len(rims.sizes), -1)
     row[real] = np.arange(len(real))
@@ -114,9 +114,10 @@ def _thickened(joined: Polygons, solid: Bools, skin: float) -> tuple[list[Floats
     owners, vertices = np.divmod(np.unique(corners), len(surface.vertices))
     kept = row[owners] >= 0
     owners, points = owners[kept], surface.vertices[vertices[kept]]
-    ends = np.searchsorted(owners, real, side="right")[:-1]
-    clouds = [
-        np.concatenate([front, behind[polygon]])
-        for front, polygon in zip(np.split(points, ends), real.tolist(), strict=True)
-    ]
+    back = row[rims.rows] >= 0
+    owners = np.concatenate([owners, rims.rows[back]])
+    order = np.argsort(owners, kind="stable")
+    owners, points = owners[order], np.concatenate([points, behind[back]])[order]
+    starts, ends = (np.searchsorted(owners, real, side=side) for side in ("left", "right"))
+    clouds = [points[i:j] for i, j in zip(starts.tolist(), ends.tolist(), strict=True)]
     return clouds, row[rims.owners]

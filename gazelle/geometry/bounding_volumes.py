@@ -26,13 +26,22 @@ _ENDLESS = 1e10
 _LIKELY = 0.8
 
 
-def tighten_hierarchies(model: mujoco.MjModel) -> None:
-    """Replace the bounding volume hierarchies of a compiled model by tighter ones."""
+def tighten_hierarchies(model: mujoco.MjModel, seen: Bools) -> None:
+    """Replace the bounding volume hierarchies of a compiled model by tighter ones.
+
+    Args:
+        model: The model.
+        seen: Whether rays may meet each geom, shape (ngeom,); those of other meshes stay.
+    """
     model.vis.global_.bvactive = False  # or MuJoCo notes for viewers what it visits
     for start, count in zip(model.body_bvhadr, model.body_bvhnum, strict=True):
         _tighten(model, slice(start, start + count), bodies=True)
-    for start, count in zip(model.mesh_bvhadr, model.mesh_bvhnum, strict=True):
-        _tighten(model, slice(start, start + count), bodies=False)
+    from mujoco import mjtGeom
+
+    meshes = np.unique(model.geom_dataid[seen & (model.geom_type == mjtGeom.mjGEOM_MESH)])
+    for mesh in meshes.tolist():
+        start = model.mesh_bvhadr[mesh]
+        _tighten(model, slice(start, start + model.mesh_bvhnum[mesh]), bodies=False)
 
 
 def _tighten(model: mujoco.MjModel, nodes: slice, *, bodies: bool) -> None:

@@ -11,6 +11,8 @@ from __future__ import annotations
 import hashlib
 import logging
 import time
+from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,6 +26,7 @@ from gazelle.geometry.mesh_data import MeshData
 from gazelle.geometry.patches import joined_flat, thick_patches
 from gazelle.geometry.probing import spread
 from gazelle.geometry.surface import WeldedSurface, clean, closed_parts, components, volumes_of
+from gazelle.native.processors import processors
 
 CACHED = 256
 PROMISED = 0.01
@@ -35,9 +38,10 @@ SLOW = 0.02
 """Seconds from which on the pieces are kept on disk."""
 
 _LOG = logging.getLogger(__name__)
-_LARGE = 100_000
-_PATIENCE = 2.0
-"""Triangles, and seconds spent on meshes in this process, after which a log line announces a wait."""
+_LARGE = 10_000
+"""Triangles of meshes above which a log line announces a wait."""
+_EVERY = 2.0
+"""Least time between lines that report how far that is [s]."""
 _DENT = 0.01
 _DEEPEST_DENT = 0.01
 """Depth of dents that are filled: a share of the size, a length [m]."""
@@ -54,7 +58,6 @@ _LOOKS = spread_directions(48)
 """Directions of the outermost corners that are checked first."""
 
 _MEMORY: dict[str, ConvexPieces] = {}
-_SPENT = {"seconds": 0.0}
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,32 +90,74 @@ def decompose(mesh: MeshData, *, static: bool) -> ConvexPieces:
         mesh: Any triangles.
         static: Whether it never moves.
     """
+    return decompose_all([(mesh, static)])[0]
+
+
+def decompose_all(meshes: Sequence[tuple[MeshData, bool]]) -> list[ConvexPieces]:
+    """Return the pieces of several meshes, as ``decompose`` does, computed by all processors.
+
+    Args:
+        meshes: Each with a flag: whether it never moves.
+    """
+    keys = [_key_of(mesh, static) for mesh, static in meshes]
+    wanted = dict(zip(keys, meshes, strict=True))
+    found = {key: _MEMORY[key] for key in wanted if key in _MEMORY}
+    for key in wanted.keys() - found.keys():
+        stored = piece_cache.load(key)
+        if stored is not None:
+            found[key] = _pieces(stored, *wanted[key])
+    found |= _cut_all({key: each for key, each in wanted.items() if key not in found})
+    _MEMORY.update(found)
+    for key in list(_MEMORY)[:-CACHED]:
+        del _MEMORY[key]
+    return [found[key] for key in keys]
+
+
+def _key_of(mesh: MeshData, static: bool) -> str:  # noqa: FBT001
     digest = hashlib.blake2b(b"static" if static else b"moves", digest_size=16)
     digest.update(np.ascontiguousarray(mesh.vertices, np.float64).tobytes())
     digest.update(np.ascontiguousarray(mesh.faces, np.int32).tobytes())
-    key = digest.hexdigest()
-    if key not in _MEMORY:
-        while len(_MEMORY) >= CACHED:
-            del _MEMORY[next(iter(_MEMORY))]
-        _MEMORY[key] = _made(key, mesh, static=static)
-    return _MEMORY[key]
+    return digest.hexdigest()
 
 
-def _made(key: str, mesh: MeshData, *, static: bool) -> ConvexPieces:
-    """Return the pieces of a mesh from disk, or cut."""
-    stored = piece_cache.load(key)
-    if stored is None:
-        if len(mesh.faces) > _LARGE or _SPENT["seconds"] > _PATIENCE:
-            _LOG.info("cutting a mesh of %d triangles into convex pieces", len(mesh.faces))
-        start = time.perf_counter()
-        surface = clean(mesh.vertices, mesh.faces)
-        closed = surface.is_closed() and surface.volume > 0.0
-        stored = (*_cut(surface, static=static), closed)
-        spent = time.perf_counter() - start
-        _SPENT["seconds"] += spent
-        if spent > SLOW:
-            piece_cache.store(key, stored)
-    solids, whole, gap, closed = stored
+def _cut_all(meshes: Mapping[str, tuple[MeshData, bool]]) -> dict[str, ConvexPieces]:
+    """Return the pieces of meshes, by key, and report how far that is."""
+    triangles = sum(len(mesh.faces) for mesh, _ in meshes.values())
+    if triangles > _LARGE:
+        text = "cutting meshes of %d triangles into convex pieces: 0 of %d"
+        _LOG.info(text, triangles, len(meshes))
+    found, said = {}, time.perf_counter()
+    # The largest first, or the last one would keep the others waiting.
+    keys = sorted(meshes, key=lambda key: len(meshes[key][0].faces), reverse=True)
+    with ThreadPoolExecutor(processors()) as pool:
+        tasks = {pool.submit(_cut_one, key, *meshes[key]): key for key in keys}
+        try:
+            for task in as_completed(tasks):
+                found[tasks[task]] = task.result()
+                if time.perf_counter() - said > _EVERY:
+                    said = time.perf_counter()
+                    _LOG.info(
+                        "cutting meshes into convex pieces: %d of %d", len(found), len(meshes)
+                    )
+        except BaseException:
+            pool.shutdown(cancel_futures=True)
+            raise
+    return found
+
+
+def _cut_one(key: str, mesh: MeshData, static: bool) -> ConvexPieces:  # noqa: FBT001
+    """Return the pieces of a mesh, and store what took long."""
+    start = time.perf_counter()
+    surface = clean(mesh.vertices, mesh.faces)
+    closed = surface.is_closed() and surface.volume > 0.0
+    cut = (*_cut(surface, static=static), closed)
+    if time.perf_counter() - start > SLOW:
+        piece_cache.store(key, cut)
+    return _pieces(cut, mesh, static)
+
+
+def _pieces(cut: piece_cache.Stored, mesh: MeshData, static: bool) -> ConvexPieces:  # noqa: FBT001
+    solids, whole, gap, closed = cut
     for vertices, faces in solids:
         vertices.setflags(write=False)
         faces.setflags(write=False)

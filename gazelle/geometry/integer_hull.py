@@ -99,7 +99,7 @@ class HullBuilder:
 
         Args:
             count: Points that it was built of.
-            rows: Where they are written.
+            rows: Room for the rows, shape (most,).
 
         Returns:
             The number of corners.

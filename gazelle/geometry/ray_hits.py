@@ -65,7 +65,12 @@ class TriangleRays:
         """
         start = origins + self.size * (_START * directions + _ASIDE)
         distance, face = np.full(len(start), np.inf), np.full(len(start), -1, np.int32)
-        self.cast(np.ascontiguousarray(start), np.array(directions, order="C"), distance, face)
+        origin = cython.declare(cython.double[:, ::1], np.ascontiguousarray(start))
+        way = cython.declare(cython.double[:, ::1], np.array(directions, order="C"))
+        reach = cython.declare(cython.double[::1], distance)
+        hit = cython.declare(cython.int[::1], face)
+        with cython.nogil:
+            self.cast(origin, way, reach, hit)
         met = face >= 0
         edges = np.asarray(self.triangles)[face, 3:]
         outwards = np.einsum("ij,ij->i", np.cross(edges[:, :3], edges[:, 3:]), directions)

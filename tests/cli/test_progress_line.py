@@ -1,6 +1,7 @@
 """Progress of long work on standard error."""
 
 import io
+import time
 
 import pytest
 
@@ -48,3 +49,13 @@ def test_a_log_gets_a_line_now_and_then(monkeypatch, clock):
     monkeypatch.setattr("sys.stderr", shown)
     list(work(clock, 4.0, 6))
     assert shown.getvalue() == "filming: 1 of 6 pictures\nfilming: 4 of 6 pictures\n"
+
+
+def test_only_long_work_is_announced(monkeypatch, capsys):
+    with progress_line.announced("loading a.urdf"):
+        pass
+    assert capsys.readouterr().err == ""
+    monkeypatch.setattr(progress_line, "_ANNOUNCED", 0.0)
+    with progress_line.announced("loading b.urdf"):
+        time.sleep(0.5)
+    assert capsys.readouterr().err == "gazelle: loading b.urdf\n"

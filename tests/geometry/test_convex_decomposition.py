@@ -303,12 +303,13 @@ def test_walls_of_the_corpus_keep_a_robot_inside(corpus):
 
 def test_what_takes_long_is_told(monkeypatch, caplog):
     caplog.set_level("INFO", logger="gazelle.geometry.convex_decomposition")
-    monkeypatch.setattr(convex, "_SPENT", {"seconds": 0.0})
+    monkeypatch.setattr(convex, "_LARGE", 100)
     convex_pieces(data(l_shape()))
     assert not caplog.records
-    monkeypatch.setattr(convex, "_SPENT", {"seconds": 3.0})
+    monkeypatch.setattr(convex, "_EVERY", 0.0)
     convex_pieces(data(ring()))
-    assert "cutting a mesh of 256 triangles" in caplog.text
+    assert "cutting meshes of 256 triangles into convex pieces: 0 of 1" in caplog.text
+    assert "cutting meshes into convex pieces: 1 of 1" in caplog.text
 
 
 @settings(max_examples=60, deadline=None)

@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+import ctypes
+
 import mujoco
 import numpy as np
+
+from gazelle.engines.mujoco.contact_laws.struct_layout import memory_offset
+from gazelle.engines.mujoco.library import address_of_struct
 
 _FOR_SHAPE = 32 * 1024
 """Bytes for each shape that may collide and moves.
@@ -25,7 +30,8 @@ def compile_with_memory(spec: mujoco.MjSpec, coordinates: int) -> mujoco.MjModel
     that is a mesh of 900 convex pieces has thousands. Memory that is not used costs nothing.
 
     Args:
-        spec: Specification; its size of memory is set.
+        spec: Specification; its size of memory is set where MuJoCo's is too little. The size is
+            written to the model too, as compiling again would take as long as the first time.
         coordinates: Number of coordinates of motion.
     """
     if coordinates > _LARGE:
@@ -34,7 +40,8 @@ def compile_with_memory(spec: mujoco.MjSpec, coordinates: int) -> mujoco.MjModel
     moving = compiled.body_weldid[compiled.geom_bodyid] != 0
     colliding = (compiled.geom_contype | compiled.geom_conaffinity) != 0
     required = _FOR_SHAPE * int(np.count_nonzero(moving & colliding))
-    if compiled.narena >= required:
-        return compiled
-    spec.memory = required
-    return spec.compile()
+    if compiled.narena < required:
+        spec.memory = required
+        place = address_of_struct(compiled) + memory_offset()
+        ctypes.c_int64.from_address(place).value = required
+    return compiled

@@ -33,6 +33,7 @@ from gazelle.description import (
     Sphere,
     Vector3,
 )
+from gazelle.engines.mujoco.compiler.mesh_solids import MeshSolids, key_of
 from gazelle.engines.mujoco.compiler.meshes import SHELL, cone_mesh, inertia_of
 from gazelle.errors import EngineWarning, located
 from gazelle.geometry.ground import Ground
@@ -51,8 +52,6 @@ OPEN_GROUP = 4
 
 _GROUND = 1.0
 """Depth of the ground below the lowest point of a heightmap [m]."""
-_LARGE = 60_000
-"""Triangles from which on ground is a height field, however rough it is."""
 _THIN = 1e-6
 _FEWEST = 4
 """Vertices that MuJoCo wants a mesh to have."""
@@ -68,7 +67,7 @@ class ShapeBuilder:
         meshes: Names of what is stored already.
         pieces: Of meshes in pieces, the names of those and their middles, shape (n, 3) [m].
         heightmaps: Likewise.
-        grounds: Checks of meshes that may be ground.
+        solids: Ground and pieces of meshes.
     """
 
     spec: mujoco.MjSpec
@@ -76,7 +75,7 @@ class ShapeBuilder:
     meshes: dict[Any, str] = field(default_factory=dict)
     pieces: dict[Any, tuple[list[str], Floats]] = field(default_factory=dict)
     heightmaps: dict[Heightmap, str] = field(default_factory=dict)
-    grounds: dict[Any, Ground | None] = field(default_factory=dict)
+    solids: MeshSolids = field(default_factory=MeshSolids)
 
     def options(
         self, shape: Geometry, pose: Pose, source: Source | None, *, static: bool = False
@@ -95,14 +94,11 @@ class ShapeBuilder:
         """Return one geom for each convex piece: MuJoCo fills a mesh's hull, hollows and all."""
         if shape.path is None:
             return []
-        from gazelle.formats.mesh import load_mesh
-        from gazelle.geometry.convex_decomposition import decompose
-
-        ground = self._ground(shape) if static else None
+        ground = self.solids.ground(shape) if static else None
         if ground is not None:
             return [self._ground_geom(shape, ground, pose, source)]
-        pieces = decompose(load_mesh(shape), static=static)
-        key = (_key_of(shape), static)
+        pieces = self.solids.pieces(shape, static=static)
+        key = (key_of(shape), static)
         if pieces.gap > pieces.promised and key not in self.pieces:
             _warn_of_gap(shape, pieces.gap, source)
         return self._piece_geoms(key, pieces, pose)
@@ -149,20 +145,6 @@ class ShapeBuilder:
         ]
         return names, middles
 
-    def _ground(self, shape: Mesh) -> Ground | None:
-        """Return the height field of a mesh; None if it has none that is fine enough."""
-        from gazelle.formats.mesh import load_mesh
-        from gazelle.geometry.convex_decomposition import PROMISED
-        from gazelle.geometry.ground import ground_of
-
-        key = _key_of(shape)
-        if key not in self.grounds:
-            data = load_mesh(shape)
-            found = ground_of(data)
-            rough = found is not None and min(found.gaps) > PROMISED
-            self.grounds[key] = None if rough and len(data.faces) < _LARGE else found
-        return self.grounds[key]
-
     def _ground_geom(
         self, shape: Mesh, ground: Ground, pose: Pose, source: Source | None
     ) -> dict[str, Any]:
@@ -179,7 +161,7 @@ class ShapeBuilder:
         sides = [(b - a) / 2.0 for a, b in zip(ground.low, ground.high, strict=True)]
         middle = [(b + a) / 2.0 for a, b in zip(ground.low, ground.high, strict=True)]
         low, range_z = float(heights.min()), max(float(np.ptp(heights)), _THIN)
-        key = (_key_of(shape), "ground")
+        key = (key_of(shape), "ground")
         if key not in self.meshes:
             self.meshes[key] = f"ground_{len(self.meshes)}"
             self.spec.add_hfield(
@@ -203,15 +185,14 @@ class ShapeBuilder:
         if not isinstance(shape, Mesh) or shape.path is None:
             return None
         from gazelle.formats.mesh import load_mesh
-        from gazelle.geometry.convex_decomposition import decompose
 
         data, closed = load_mesh(shape), False
-        if not static or self._ground(shape) is None:
-            pieces = decompose(data, static=static)
+        if not static or self.solids.ground(shape) is None:
+            pieces = self.solids.pieces(shape, static=static)
             if pieces.whole or not pieces.solids:
                 return None
             closed = pieces.closed
-        geom = self._sheet_geom((_key_of(shape), "seen"), data.vertices, data.faces, pose)
+        geom = self._sheet_geom((key_of(shape), "seen"), data.vertices, data.faces, pose)
         untouched = {"contype": 0, "conaffinity": 0}
         return {"group": CLOSED_GROUP if closed else OPEN_GROUP, **untouched, **geom}
 
@@ -228,7 +209,7 @@ class ShapeBuilder:
         from gazelle.formats.mesh import load_mesh
 
         data = load_mesh(shape)
-        return [self._sheet_geom((_key_of(shape), "visible"), data.vertices, data.faces, pose)]
+        return [self._sheet_geom((key_of(shape), "visible"), data.vertices, data.faces, pose)]
 
     def _sheet_geom(self, key: Any, vertices: Any, faces: Any, pose: Pose) -> dict[str, Any]:
         """Return a mesh geom that need not have a volume."""
@@ -263,10 +244,6 @@ class ShapeBuilder:
 def _warn_of_gap(shape: Mesh, gap: float, source: Source | None) -> None:
     text = f"the mesh '{shape.uri}' collides up to {gap:.2g} m beside its surface: it is too rough"
     warnings.warn(EngineWarning(located(text, source)), stacklevel=2)
-
-
-def _key_of(shape: Mesh) -> tuple[Any, ...]:
-    return (shape.path, shape.scale, shape.submesh, shape.center_submesh)
 
 
 def _placed(pose: Pose) -> dict[str, Any]:

@@ -185,7 +185,7 @@ def compile_world(recipe: CompilerInput) -> Compiled:
     prepare(draft.spec, draft.extras)
     springs = [spring.pair for spring in draft.springs]
     model = draft.compile()
-    tighten_hierarchies(model)
+    tighten_hierarchies(model, model.geom_group != CONTACT_GROUP)
     limit_speculative_contacts(model, recipe.world)
     if not recipe.damped:
         skip_idle_forces(model)
@@ -221,6 +221,7 @@ def draft_world(recipe: CompilerInput) -> Draft:
     held = {body.name for parts in bodies.values() for body in parts if body.root is not None}
     slips = slipping(described_slips(bodies.values()), recipe.slip_links - held)
     builder = _SpecBuilder(spec, recipe, bodies, slips)
+    builder.shapes.solids.prepare(itertools.chain.from_iterable(bodies.values()))
     for model in recipe.world.models:
         builder.add_model(model)
     builder.world.finish()

@@ -80,9 +80,10 @@ def _middle(
 ) -> float | None:
     """Return the middle of a mesh's vertices, by their extent in directions about the axis."""
     along = vertices @ axis
-    one = np.cross(axis, np.eye(3)[np.argmin(np.abs(axis))])
-    one /= np.linalg.norm(one)
-    two = np.cross(axis, one)
+    one, two = np.zeros((2, 3))  # NumPy's products take a tenth of a second for a thousand pieces
+    mujoco.mju_cross(one, axis, np.eye(3)[np.argmin(np.abs(axis))])
+    mujoco.mju_normalize3(one)
+    mujoco.mju_cross(two, axis, one)
     angles = np.arange(_DIRECTIONS) * (2.0 * np.pi / _DIRECTIONS)
     ways = np.outer(np.cos(angles), one) + np.outer(np.sin(angles), two)
     reach = ((vertices + off) @ ways.T).max(axis=0)

@@ -207,6 +207,19 @@ def offsets() -> Offsets:
     return found
 
 
+@lru_cache(maxsize=1)
+def memory_offset() -> int:
+    """Return the bytes from the start of a model to the size of its data's memory.
+
+    Raises:
+        EngineError: MuJoCo has an unexpected memory layout.
+    """
+    model, offset = mujoco.MjSpec().compile(), int(_struct("mjModel").narena.offset)
+    if ctypes.c_int64.from_address(address_of_struct(model) + offset).value != model.narena:
+        raise EngineError(f"MuJoCo {mujoco.__version__} has an unexpected memory layout")
+    return offset
+
+
 @lru_cache(maxsize=32)
 def _struct(name: str) -> Any:
     """Return a struct of MuJoCo's as ``ctypes`` lays it out."""
