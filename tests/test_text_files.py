@@ -1,19 +1,27 @@
 """Files of text and their names, whatever they hold, are one clear error."""
 
 import contextlib
+import os
+import threading
+from pathlib import Path
 
 import pytest
 
 import gazelle
-from gazelle import FormatError, ResolveError, RosError, formats
+from gazelle import Error, FormatError, ResolveError, RosError, formats
 from gazelle.clients.descriptions import load_parameters
 from gazelle.control.checking import check_controllers, is_controllers
 from gazelle.formats import model_config
+from gazelle.simulation import Replay
 from gazelle.stage.format import load_stage
+from gazelle.training.deploy import read_goals
+from gazelle.training.run_archive import unpack_run
+from gazelle.training.sweep_plan import SweepPlan
 from gazelle.training.tables import rows_until
 from gazelle.viewer.plots import read_table
 from gazelle_ros.base.path_texts import MAX_NAME, MAX_PATH, can_be_path, existing_file, expanded
 from gazelle_ros.base.text_files import read_rows, read_text
+from gazelle_ros.compat.script import run_script
 from gazelle_ros.launch import load_launch_text
 
 NAMES = ["a" * (MAX_NAME + 1), "a/" * MAX_PATH, "a\x00b", "\ud800", "~nobody_is_called_this/a.sdf"]
@@ -114,3 +122,32 @@ def test_tables_with_a_quote_that_is_never_closed(tmp_path, text, read):
     (tmp_path / "a.csv").write_text(text)
     with pytest.raises(FormatError, match="this is not a table: field larger"):
         read(tmp_path / "a.csv")
+
+
+@pytest.mark.parametrize("device", ["/dev/zero", "/dev/full"])
+@pytest.mark.parametrize(
+    "read",
+    [
+        read_text,
+        read_rows,
+        read_goals,
+        SweepPlan.read,
+        lambda file: run_script(str(file), []),
+        Replay,
+        lambda file: unpack_run(file, "runs"),
+    ],
+)
+def test_devices_that_never_end_are_one_error(read, device, monkeypatch):
+    monkeypatch.setattr("gazelle_ros.base.text_files.MAX_BYTES", 1000)
+    if not Path(device).is_char_device():
+        pytest.skip(f"there is no {device}")
+    with pytest.raises(Error, match=r"has more than the limit of 1,000 bytes|is a pipe"):
+        read(Path(device))
+
+
+def test_pipes_and_line_ends_are_read(tmp_path):
+    os.mkfifo(tmp_path / "a.txt")
+    writer = threading.Thread(target=(tmp_path / "a.txt").write_bytes, args=(b"a\r\nb\rc",))
+    writer.start()
+    assert read_text(tmp_path / "a.txt") == "a\nb\nc"
+    writer.join()

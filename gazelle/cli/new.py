@@ -20,6 +20,7 @@ from pathlib import Path
 
 from gazelle.cli import showing
 from gazelle.errors import TaskError
+from gazelle_ros.base.text_files import read_text
 from gazelle_ros.base.writing import write_text
 
 _FILES = {"task.py": "{}.py", "robot.urdf": "{}.urdf", "test.py": "test_{}.py"}
@@ -70,7 +71,7 @@ def _control(args: argparse.Namespace) -> int:
 
     reading = Reading(Resolver(()))
     path = loader.find_file(args.name, reading)
-    text = path.read_text(encoding="utf-8")
+    text = read_text(path)
     if xacro.is_xacro(xml.read_file(path)):
         text = fragment(xacro.expand(path, reading), "")
     files = builders.control_files(text, interface=args.interface, kind=args.controller)

@@ -9,7 +9,8 @@ from typing import Any
 
 from gazelle.description import Link, Model, World
 from gazelle.engines import CHANGES, DivergenceError
-from gazelle.errors import EngineError, SimulationError
+from gazelle.errors import EngineError, FormatError, SimulationError
+from gazelle.formats.limits import refuse_special
 from gazelle.simulation.encoding import decode, encode
 from gazelle.simulation.recording import FORMAT, VERSION, state_hash
 from gazelle.simulation.simulation import Simulation
@@ -166,7 +167,10 @@ def _begin(first: dict[str, Any], threads: int | None) -> Simulation:
 def _read(path: Path) -> list[dict[str, Any]]:
     lines: list[dict[str, Any]] = []
     try:
+        refuse_special(path)
         texts = path.read_text(encoding="utf-8", errors="replace").splitlines()
+    except FormatError as error:
+        raise SimulationError(error.message, file=shortened(str(path))) from error
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else error
         raise SimulationError(f"it cannot be read: {reason}", file=shortened(str(path))) from error

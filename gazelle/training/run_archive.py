@@ -16,6 +16,7 @@ from pathlib import Path
 from gazelle.argument_checks import checked
 from gazelle.bounded_npz import BROKEN
 from gazelle.errors import FormatError, TaskError
+from gazelle.formats.limits import refuse_special
 from gazelle.training.runs import Run, new_folder
 from gazelle_ros.base.writing import replacing
 
@@ -86,6 +87,7 @@ def unpack_run(file: str | Path, out: str | Path = "runs") -> Run:
         TaskError: The folder cannot be written.
     """
     source = Path(file)
+    refuse_special(source)
     try:
         with zipfile.ZipFile(source) as archive:
             name, members = _members(archive)

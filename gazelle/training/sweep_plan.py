@@ -10,6 +10,7 @@ import yaml
 
 from gazelle.errors import FormatError, TaskError, did_you_mean
 from gazelle_ros.base import bounded_yaml
+from gazelle_ros.base.text_files import read_text
 
 METRICS = ("success", "return")
 _KEYS = {"parameters", "trials", "workers", "steps", "episodes", "metric", "algo", "seed"}
@@ -45,8 +46,8 @@ class SweepPlan:
             FormatError: The file cannot be read, or says something that is impossible.
         """
         try:
-            values = bounded_yaml.safe_load(file.read_text(encoding="utf-8"))
-        except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+            values = bounded_yaml.safe_load(read_text(file))
+        except (OSError, yaml.YAMLError) as error:
             raise FormatError(f"cannot read the sweep: {error}", file=str(file)) from error
         if not isinstance(values, dict) or not isinstance(values.get("parameters"), dict):
             hint = "expected 'parameters:' with low and high, or choices, of each"

@@ -27,7 +27,8 @@ from gazelle.drop_in.moveit_commander.planning_scene_interface import (
     PlanningSceneInterface,
 )
 from gazelle.drop_in.moveit_commander.robot import RobotCommander
-from gazelle.errors import Error
+from gazelle.errors import Error, FormatError
+from gazelle_ros.base.text_files import read_text
 from gazelle_ros.base.writing import write_text
 from gazelle_ros.msgs import moveit_msgs
 
@@ -212,8 +213,8 @@ class MoveGroupCommandInterpreter:
         if words and not file.is_file():
             file = Path("cmd") / file
         try:
-            lines = file.read_text(encoding="utf-8").splitlines()
-        except (OSError, UnicodeDecodeError):
+            lines = read_text(file).splitlines()
+        except (OSError, FormatError):
             return warn(f"Unable to load {file}")
         here = file.resolve()
         if here in self._loading:

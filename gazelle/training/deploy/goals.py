@@ -9,6 +9,7 @@ from pathlib import Path
 
 from gazelle.argument_checks import checked
 from gazelle.errors import FormatError
+from gazelle_ros.base.text_files import read_text
 
 
 @checked(FormatError)
@@ -48,8 +49,8 @@ def read_goals(file: Path) -> list[GoalPlace]:
     """
     goals = []
     try:
-        lines = file.read_text(encoding="utf-8").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
+        lines = read_text(file).splitlines()
+    except OSError as error:
         raise FormatError(f"cannot read the goals: {error}", file=str(file)) from error
     for number, line in enumerate(lines, 1):
         text = line.partition("#")[0].strip()

@@ -8,16 +8,39 @@ from typing import Any
 
 from gazelle_ros.base.errors import FormatError
 
+MAX_BYTES = 256 * 2**20
+"""Size of a file that is read as a whole: some devices never end."""
+_PIECE = 2**20
+
+
+def read_bytes(file: Path) -> bytes:
+    """Return the content of a file, which may be a pipe.
+
+    Raises:
+        FormatError: It is larger than the limit.
+        OSError: It cannot be read.
+    """
+    content = bytearray()
+    with file.open("rb") as opened:
+        while piece := opened.read(_PIECE):
+            content += piece
+            if len(content) > MAX_BYTES:
+                raise FormatError(
+                    f"it has more than the limit of {MAX_BYTES:,} bytes", file=str(file)
+                )
+    return bytes(content)
+
 
 def read_text(file: Path) -> str:
     """Return the text of a file.
 
     Raises:
-        FormatError: It is not in UTF-8; the error names the line.
+        FormatError: It is not in UTF-8, where the error names the line, or larger than the limit.
         OSError: It cannot be read.
     """
     try:
-        return file.read_text(encoding="utf-8")
+        text = read_bytes(file).decode("utf-8")
+        return text.replace("\r\n", "\n").replace("\r", "\n")
     except UnicodeDecodeError as error:
         raise FormatError(
             f"this is not UTF-8 text: {error.reason} (byte {error.object[error.start]:#04x})",

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from gazelle_ros.base.errors import RosError
+from gazelle_ros.base.errors import FormatError, RosError
+from gazelle_ros.base.text_files import read_text
 from gazelle_ros.base.tuned_fields import tunable
 from gazelle_ros.builtin.arguments import CallbackWork, run_node
 from gazelle_ros.builtin.mux_inputs import MuxInput, mux_input
@@ -159,8 +160,8 @@ def _read(settings: CmdVelMuxSettings, where: str) -> tuple[str, list[MuxInput]]
         if not settings.yaml_cfg_file:
             raise RosError("no sources are configured", hint="set ~yaml_cfg_file to a YAML file")
         try:
-            text = Path(settings.yaml_cfg_file).read_text(encoding="utf-8")
-        except (OSError, ValueError) as error:
+            text = read_text(Path(settings.yaml_cfg_file))
+        except (OSError, ValueError, FormatError) as error:
             raise RosError(f"the configuration file '{where}' cannot be read: {error}") from None
     found: Any = load_yaml(text, where)
     listed = found.get("subscribers") if isinstance(found, dict) else None

@@ -14,6 +14,7 @@ from pathlib import Path
 
 from gazelle_ros.base.child_processes import become
 from gazelle_ros.base.errors import RosError, did_you_mean
+from gazelle_ros.base.text_files import read_bytes
 from gazelle_ros.builtin.on_path import offer
 from gazelle_ros.compat.finder import install
 from gazelle_ros.compat.import_errors import import_fault
@@ -43,11 +44,12 @@ def run_script(
         Its exit code.
 
     Raises:
+        FormatError: It is larger than the limit.
         RosError: It cannot be read, is written for Python 2, or imports what is not there.
     """
     file = Path(path)
     try:
-        source = file.read_bytes()
+        source = read_bytes(file)
     except OSError as error:
         raise RosError(
             f"cannot read the script: {error.strerror}", file=path, hint=_closest(file)
