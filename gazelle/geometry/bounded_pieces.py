@@ -7,8 +7,6 @@ filled by less than the bound.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import numpy as np
 
 from gazelle.array_types import Bools, Floats, Indices
@@ -16,7 +14,9 @@ from gazelle.geometry.flat_polygons import Polygons
 from gazelle.geometry.hull import Solid, hulls_of
 from gazelle.geometry.merging import PieceMerger
 from gazelle.geometry.patches import behind_rims, joined_flat, skin_of, widths_of
+from gazelle.geometry.piece_groups import grouped_by_cells
 from gazelle.geometry.probing import ROUNDING, AirBeside
+from gazelle.geometry.protrusion import protrusion
 from gazelle.geometry.surface import WeldedSurface
 
 MOST_PIECES = 1000
@@ -29,8 +29,14 @@ _CLOSE, _WITHIN = 0.4, 0.8
 _MANY_POLYGONS = 3000
 _TOO_MANY_POLYGONS = 5000
 """Polygons up to which they are merged as they are, and above which they are joined coarsely."""
+_MOST_POLYGONS = 50_000
+"""Polygons up to which they are merged one by one, and above which those of a cell are one."""
 _FINE, _COARSE = 0.25, 0.7
 """Largest deviation of joined polygons from a plane, as a share of the bound."""
+_FAR = 8
+"""Times too many pieces from which on the next bound is four times as large, and not twice."""
+_CELL = 0.5
+"""Side of a cell, likewise; hulls of polygons of at most its side each stay within the bound."""
 
 
 def pieces_within(
@@ -47,28 +53,57 @@ def pieces_within(
             ``MOST_PIECES`` would be needed.
     """
     solid, skin = closed[number], min(skin_of(surface), max(bound, 1e-3))
-    start, pairs = _clouds(surface, number, solid, whole, bound)
-    if len(start) <= 1:
-        return hulls_of(start), bound
+    clouds, pairs = _clouds(surface, number, solid, whole, bound)
+    if len(clouds) <= 1:
+        return hulls_of(clouds), bound
     air = AirBeside(surface, solid, skin)
-    for distance, most in _distances(bound):
-        if len(start) > _MANY_POLYGONS and distance < _WITHIN * bound:
-            continue  # it would take long, and hardly ever be enough
-        if distance > bound:
-            start, pairs = _clouds(surface, number, solid, whole, distance)
-        merger = PieceMerger(start, air.at(distance))
-        merger.merge(pairs)
-        merger.merge(merger.overlapping())
-        clouds = merger.clouds()
-        if len(clouds) <= most:
-            break
-    return hulls_of(clouds), max(bound, distance / _WITHIN)
+    if len(clouds) <= _MANY_POLYGONS:  # of more it would take long, and hardly ever be enough
+        clouds, pairs = _merged(clouds, pairs, air.at(_CLOSE * bound), 0.0), pairs[:0]
+        if len(clouds) <= _FEW_PIECES:
+            return hulls_of(clouds), bound
+    if len(clouds) <= _MOST_POLYGONS:
+        clouds, pairs = _merged(clouds, pairs, air.at(_WITHIN * bound), 0.0), pairs[:0]
+        if len(clouds) <= MOST_PIECES:
+            return hulls_of(clouds), bound
+    solids, gap = _beyond_bound(surface, solid, air, clouds, pairs, bound)
+    return solids, max(bound, gap)
 
 
-def _distances(bound: float) -> Iterator[tuple[float, int]]:
-    """Yield distances to try, and how many pieces may be needed for each."""
-    yield _CLOSE * bound, _FEW_PIECES
-    yield from ((_WITHIN * bound * 2.0**power, MOST_PIECES) for power in range(16))
+def _beyond_bound(
+    surface: WeldedSurface,
+    solid: Bools,
+    air: AirBeside,
+    clouds: list[Floats],
+    pairs: Indices,
+    bound: float,
+) -> tuple[list[Solid], float]:
+    """Return few pieces of a surface for which the bound is too tight, and how far they reach.
+
+    It is measured: the hull of all is taken where fewer pieces would reach as far.
+    """
+    hull = hulls_of([np.concatenate(clouds)])
+    farthest, level = protrusion(surface, hull, solid), 2.0 * bound
+    while level < farthest:
+        if len(clouds) > _MOST_POLYGONS:
+            grouped = grouped_by_cells(clouds, pairs, _CELL * level)
+            if len(grouped[0]) > _MOST_POLYGONS:
+                level *= 2.0
+                continue
+            clouds, pairs = grouped
+        clouds, pairs = _merged(clouds, pairs, air.at(_WITHIN * level), level), pairs[:0]
+        if len(clouds) <= MOST_PIECES:
+            solids = hulls_of(clouds)
+            return solids, min(level, protrusion(surface, solids, solid))
+        level *= 4.0 if len(clouds) > _FAR * MOST_PIECES else 2.0
+    return hull, farthest
+
+
+def _merged(clouds: list[Floats], pairs: Indices, probes: Floats, reach: float) -> list[Floats]:
+    """Return pieces merged where they touch, then where they are within reach [m]."""
+    merger = PieceMerger(clouds, probes)
+    merger.merge(pairs)
+    merger.merge(merger.overlapping(reach))
+    return merger.clouds()
 
 
 def _clouds(

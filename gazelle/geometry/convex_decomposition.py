@@ -162,7 +162,7 @@ def _pieces(cut: piece_cache.Stored, mesh: MeshData, static: bool) -> ConvexPiec
         vertices.setflags(write=False)
         faces.setflags(write=False)
     size = float(np.linalg.norm(np.ptp(mesh.bounds, axis=0)))
-    promised = PROMISED if static else _bound(size)
+    promised = min(PROMISED, _SHARE * size) if static else _bound(size)
     return ConvexPieces(tuple(MeshData(*solid) for solid in solids), whole, gap, promised, closed)
 
 

@@ -12,9 +12,9 @@ cdef class PieceMerger:
     cdef unsigned char[::1] refused
 
     @cython.locals(count=Py_ssize_t, row=int, other=int, free=bint, swapped=bint)
-    cdef Py_ssize_t scan(self, Py_ssize_t[:, ::1] pairs) noexcept nogil
+    cdef Py_ssize_t scan(self, Py_ssize_t[:, ::1] pairs, double reach) noexcept nogil
     @cython.locals(axis=int)
-    cdef bint overlap(self, int one, int other) noexcept nogil
+    cdef bint overlap(self, int one, int other, double reach) noexcept nogil
     @cython.locals(end=int)
     cdef void mark(self, int piece) noexcept nogil
     @cython.locals(end=int)

@@ -75,14 +75,18 @@ class PieceMerger:
         members = np.asarray(self.member)
         return [points[members[: self.gather(row, 0)]] for row in rows.tolist()]
 
-    def overlapping(self) -> Indices:
-        """Return the pairs of pieces with overlapping boxes that may still be merged."""
-        count = self.scan(np.zeros((0, 2), np.intp))
+    def overlapping(self, reach: float = 0.0) -> Indices:
+        """Return the pairs of pieces with overlapping boxes that may still be merged.
+
+        Args:
+            reach: Distance between boxes that counts as none [m].
+        """
+        count = self.scan(np.zeros((0, 2), np.intp), reach)
         pairs = np.zeros((count, 2), np.intp)
-        self.scan(pairs)
+        self.scan(pairs, reach)
         return pairs
 
-    def scan(self, pairs: Indices) -> int:
+    def scan(self, pairs: Indices, reach: float) -> int:
         """Write pairs of pieces with overlapping boxes, and return how many there are."""
         count = 0
         for row in range(self.number.shape[0]):
@@ -91,7 +95,7 @@ class PieceMerger:
             self.mark(row)
             for other in range(row + 1, self.number.shape[0]):
                 free = self.number[other] >= 0 and self.touching[other] < 0
-                if free and self.overlap(row, other):
+                if free and self.overlap(row, other, reach):
                     if count < pairs.shape[0]:
                         swapped = self.number[row] > self.number[other]
                         pairs[count, 0] = other if swapped else row
@@ -100,12 +104,12 @@ class PieceMerger:
             self.unmark(row)
         return count
 
-    def overlap(self, one: int, other: int) -> bool:
-        """Return whether the boxes of two pieces overlap."""
+    def overlap(self, one: int, other: int, reach: float) -> bool:
+        """Return whether the boxes of two pieces overlap, or are this near."""
         for axis in range(3):
-            if self.box[one, axis] > self.box[other, axis + 3]:
+            if self.box[one, axis] > self.box[other, axis + 3] + reach:
                 return False
-            if self.box[other, axis] > self.box[one, axis + 3]:
+            if self.box[other, axis] > self.box[one, axis + 3] + reach:
                 return False
         return True
 

@@ -20,8 +20,9 @@ from gazelle.geometry.hull import Solid
 from gazelle.geometry.probing import spread
 from gazelle.geometry.surface import WeldedSurface
 
-FINE = 7e-3
-"""Largest deviation of solids from a surface before their number is unlimited [m]."""
+FINE = (7e-3, 7e-3)
+"""Largest deviation of solids from a surface before their number is unlimited: a length [m], or a
+share of the size if that is less."""
 MOST_PATCHES = 20_000
 """Solids from which on they are coarser than that."""
 
@@ -91,9 +92,10 @@ def thick_patches(joined: Polygons, closed: NDArray[np.bool_]) -> Patches:
 
 def _tolerances(size: float, count: int) -> Iterator[tuple[float, int]]:
     """Yield tolerances of polygons, each with the polygon count above which it applies."""
-    first = (*_FIRST, FINE) if count <= _MANY else (FINE,)
-    yield from ((tolerance, _FEW) for tolerance in first if tolerance < 0.01 * size)
-    yield from ((FINE * 2.0**power, MOST_PATCHES) for power in range(32))
+    fine = min(FINE[0], FINE[1] * size)
+    first = [each for each in _FIRST if each < fine] if count <= _MANY else []
+    yield from ((tolerance, _FEW) for tolerance in (*first, fine))
+    yield from ((fine * 2.0**power, MOST_PATCHES) for power in range(32))
 
 
 def widths_of(surface: WeldedSurface, rims: Rims) -> Floats:

@@ -274,3 +274,39 @@ def test_sheets_drawn_from_both_sides_stay_sheets():
             surface = clean(mesh.vertices, mesh.faces)
             assert len(surface.faces) == len(sheet.faces)
             assert not surface.is_closed()
+
+
+def test_tiles_a_hair_apart_merge_where_there_would_be_too_many(monkeypatch):
+    monkeypatch.setattr("gazelle.geometry.bounded_pieces.MOST_PIECES", 20)
+    monkeypatch.setattr("gazelle.geometry.bounded_pieces._FEW_PIECES", 20)
+    mesh = boxes(*((1.0005 * x, 1.0005 * y, 0) for x in range(6) for y in range(6)))
+    pieces = decompose(mesh, static=False)
+    assert len(pieces.solids) <= 20
+    assert pieces.gap <= pieces.promised
+
+
+@pytest.mark.parametrize("name", ["bowl", "spikes"])
+def test_the_error_of_too_few_pieces_is_measured(name, monkeypatch):
+    monkeypatch.setattr("gazelle.geometry.bounded_pieces.MOST_PIECES", 20)
+    monkeypatch.setattr("gazelle.geometry.bounded_pieces._FEW_PIECES", 20)
+    monkeypatch.setattr("gazelle.geometry.bounded_pieces._MOST_POLYGONS", 400)
+    if name == "spikes":
+        ball = trimesh.creation.icosphere(subdivisions=3)
+        ball.vertices *= 1.0 + 0.2 * np.random.default_rng(0).random((len(ball.vertices), 1))
+        mesh = data(ball)
+    else:
+        mesh = hollows.made(name, 1.0)
+    pieces = decompose(mesh, static=False)
+    measured = hollows.protrusion(mesh, pieces, 1000)
+    assert len(pieces.solids) <= 20
+    assert pieces.promised < measured <= pieces.gap <= 2.5 * measured
+
+
+@pytest.mark.parametrize("size", [0.05, 0.8])
+def test_small_static_meshes_keep_to_a_share_of_their_size(size):
+    ball = trimesh.creation.icosphere(subdivisions=3)
+    ball.vertices *= 1.0 + 0.02 * np.random.default_rng(0).random((len(ball.vertices), 1))
+    ball.apply_scale(size / float(np.linalg.norm(ball.extents)))
+    pieces = decompose(data(ball), static=True)
+    assert pieces.promised == pytest.approx(0.01 * size)
+    assert pieces.gap <= pieces.promised
