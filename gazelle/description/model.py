@@ -24,12 +24,14 @@ class Frame:
         name: Unique among the frames, links and joints of its parent.
         attached_to: The link it moves with, scoped by ``::``; empty for the model or world frame.
         pose: In the frame of ``attached_to``.
+        joint: Name of the URDF's fixed joint to it, if it was a link that was lumped.
     """
 
     name: str
     attached_to: str = ""
     pose: Pose = field(default_factory=Pose)
     source: Source | None = field(default=None, compare=False, repr=False)
+    joint: str = field(default="", compare=False, repr=False)
 
 
 TRANSMISSION_WIDTHS = {

@@ -16,7 +16,7 @@ _WAYS = spread_directions(24)
 _FAR = 0.7
 """Distance of places beside which there are more in the end, as a share of the largest."""
 _MARGIN = 1.05
-"""What is stated for what was measured."""
+"""Factor by which more is stated than was measured."""
 _RISE = 2e-5
 """Height of a place over its piece, as a share of the size: a ray must not begin on the surface."""
 

@@ -284,3 +284,20 @@ def test_robots_of_the_corpus_are_the_same(corpus):
             assert one.inertial == other.inertial, path
             assert len(one.collisions) == len(other.collisions), path
     assert count >= 15
+
+
+def test_fixed_joints_of_lumped_links_keep_their_names():
+    massive = "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>"
+    robot = formats.load_model_string(
+        f"""<robot name="r"><link name="base">{massive}</link><link name="laser"/><link name="tip"/>
+        <joint name="mount" type="fixed"><parent link="base"/><child link="laser"/></joint>
+        <joint name="laser_joint" type="fixed"><parent link="laser"/><child link="tip"/></joint>
+        </robot>"""
+    )
+    bare = replace(robot, frames=(*robot.frames, Frame("laser_", "base"), Frame("mount2", "base")))
+    for _ in range(2):
+        joints = {frame.name: frame.joint for frame in again(bare).frames}
+        assert joints["laser"] == "mount"
+        assert joints["tip"] == "laser_joint"
+        assert joints["mount2"] == "mount2_joint"
+        bare = again(bare)

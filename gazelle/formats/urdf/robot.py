@@ -207,7 +207,13 @@ def _sdf_children(names: list[str], extensions: Extensions) -> Parameters:
 
 def _frames(body: LumpedLink) -> list[Frame]:
     return [
-        Frame(member.link.name, body.name, member.pose, member.link.node.source)
+        Frame(
+            member.link.name,
+            body.name,
+            member.pose,
+            member.link.node.source,
+            member.joint.name if member.joint else "",
+        )
         for member in body.members[1:]
     ]
 

@@ -120,7 +120,8 @@ def _frame(frame: Frame, model: Model, tree: WrittenTree, writing: Writing) -> I
     shift = tree.shifts[link]
     origin = pose if shift == Pose() else shift * pose
     taken = {joint.name for joint in model.joints}
-    name = f"{frame.name}_joint"
+    taken |= {other.joint for other in model.frames if other.name != frame.name}
+    name = frame.joint or f"{frame.name}_joint"
     while name in taken:
         name += "_"
     with inside("frame", frame):
