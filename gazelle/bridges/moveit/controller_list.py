@@ -77,15 +77,15 @@ def controllers_of(node: Node) -> dict[str, ActionController]:
 
 def _entry(entry: Mapping[str, Any]) -> ActionController:
     name, kind = str(entry.get("name", "")), str(entry.get("type", ""))
-    joints = entry.get("joints")
-    if not name or not isinstance(joints, list) or kind not in (TRAJECTORY, GRIPPER, *FAKE):
+    joints, space = entry.get("joints"), str(entry.get("action_ns", ""))
+    # A controller without a name has a global action, as in configurations of ROS-Industrial.
+    action = f"{name}/{space}" if space else name
+    if not action or not isinstance(joints, list) or kind not in (TRAJECTORY, GRIPPER, *FAKE):
         raise PlanningError(
             f"the controller '{name}' of 'controller_list' has the type '{kind}' and the joints "
             f"{joints!r}",
             hint=f"name, type ({', '.join((TRAJECTORY, GRIPPER, *FAKE))}), action_ns and joints are needed",
         )
-    space = str(entry.get("action_ns", ""))
-    action = f"{name}/{space}" if space else name
     effort = float(entry.get("max_effort", 0.0))
     names = tuple(map(str, joints))
     commanded = names if entry.get("parallel") else names[:1]

@@ -53,6 +53,7 @@ MESSAGE_MD5 = {
     "control_msgs/JointTrajectoryControllerState": "10817c60c2486ef6b33e97dcd87f4474",
     "control_msgs/PidState": "b138ec00e886c10e73f27e8712252ea6",
     "control_msgs/FollowJointTrajectoryAction": "bc4f9b743838566551c0390c65f1a248",
+    "industrial_msgs/RobotStatus": "b733cb45a38101840b75c4c0d6093d19",
     "moveit_msgs/CollisionObject": "dbba710596087da521c07564160dfccb",
     "moveit_msgs/MoveGroupAction": "33225407c32b189345eec6893a5a0da3",
     "openai_ros/RLExperimentInfo": "117729220546455cc216a7df0b6e91d0",

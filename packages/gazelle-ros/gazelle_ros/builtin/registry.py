@@ -85,6 +85,12 @@ _OWN = {
         BuiltinPackage("imu_filter_madgwick", {
             "imu_filter_node": "gazelle_ros.builtin.imu.node:madgwick_main",
         }, {"ImuFilterNodelet": "gazelle_ros.builtin.imu.node:MadgwickNode"}),
+        BuiltinPackage("industrial_robot_client", {
+            "joint_trajectory_action": "gazelle_ros.builtin.industrial.trajectory_action:main",
+        }),
+        BuiltinPackage("industrial_robot_simulator", {
+            "industrial_robot_simulator": "gazelle_ros.builtin.industrial.simulator:main",
+        }),
         BuiltinPackage("interactive_marker_twist_server", {
             "marker_server": "gazelle_ros.builtin.twist_marker_server:main",
         }),

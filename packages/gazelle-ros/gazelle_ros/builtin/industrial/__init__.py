@@ -1,0 +1,1 @@
+"""Nodes of ROS-Industrial: a simulated robot controller, and the action of its trajectories."""
