@@ -46,6 +46,8 @@ _COLUMNS = (
     "train/ent_coef",
 )
 _CURVE_POINTS = 200
+_TIMEOUT_S = 1.0
+"""Time for the update that runs when a stop is requested; then what was saved before it counts [s]."""
 _LONG_S = 0.5
 """Updates that take longer begin with a checkpoint, so that a stop need not wait for their end [s]."""
 _SAVING_SHARE = 0.05
@@ -102,6 +104,8 @@ class TrainingCallback(BaseCallback):  # type: ignore[misc]  # untyped base
         self.episodes = episodes
         self.progress = progress
         self.stop = stop
+        if run.checkpoints():
+            stop.timeout = _TIMEOUT_S
         self.saved_at = 0
         self.logged_at = 0
         self.evaluation = PeriodicEvaluation(run)
@@ -201,4 +205,5 @@ class TrainingCallback(BaseCallback):  # type: ignore[misc]  # untyped base
                 self.model.num_timesteps, lambda folder: write_checkpoint(folder, self.model, state)
             )
             self.saved_at = self.model.num_timesteps
+        self.stop.timeout = _TIMEOUT_S  # before the first checkpoint a stop waits for it
         self._saving_s = time.monotonic() - began

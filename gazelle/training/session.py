@@ -41,8 +41,6 @@ from gazelle_ros.base.interrupts import Interrupted, stopping
 
 _CHECKPOINTS = 10
 _STOPPING = "stopping after this update (Ctrl-C again stops at once) ..."
-_TIMEOUT_S = 1.0
-"""Time for the update that runs when a stop is requested; then what was saved before it counts [s]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -252,7 +250,7 @@ class _Session:
 
     def go(self, run: Run, checkpoint: Path | None = None) -> TrainResult:
         """Train until the total; from the checkpoint if there is one."""
-        with stopping(lambda: self.progress.say(_STOPPING), _TIMEOUT_S) as stop:
+        with stopping(lambda: self.progress.say(_STOPPING)) as stop:
             callback = TrainingCallback(run, self.total, self.episodes, self.progress, stop)
             if checkpoint is not None:
                 extra = read_checkpoint(checkpoint, self.learner)
@@ -296,7 +294,7 @@ class _Session:
         except StopRequested:
             return True
         except Interrupted:
-            if not (callback.stop.timed_out and callback.run.checkpoints()):
+            if not callback.stop.timed_out:
                 raise
             return True
         except ValueError as error:

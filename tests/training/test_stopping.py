@@ -19,7 +19,7 @@ from tests.training.interrupting import StopAt, weights
 
 @pytest.mark.long
 def test_second_interrupt_stops_at_once_and_leaves_the_handler_alone(tmp_path, tiny, monkeypatch):
-    monkeypatch.setattr("gazelle.training.session._TIMEOUT_S", 60.0)
+    monkeypatch.setattr("gazelle.training.callback._TIMEOUT_S", 60.0)
 
     class Impatient(StopAt):
         def update(self, done, summary):
@@ -38,7 +38,7 @@ def test_second_interrupt_stops_at_once_and_leaves_the_handler_alone(tmp_path, t
 @pytest.mark.parametrize("phase", ["step", "update", "evaluation"])
 def test_a_stop_does_not_wait_for_a_long_update(tmp_path, tiny, monkeypatch, phase):
     """It counts what was saved before, and the resumed run ends as one without the break."""
-    monkeypatch.setattr("gazelle.training.session._TIMEOUT_S", 0.1)
+    monkeypatch.setattr("gazelle.training.callback._TIMEOUT_S", 0.1)
     monkeypatch.setattr("gazelle.training.callback._LONG_S", 0.0)
     monkeypatch.setattr("gazelle.training.callback._SAVING_SHARE", math.inf)
     given = {"recipe": tiny, "seed": 3, "eval_every": 512}

@@ -63,7 +63,7 @@ class StopRequest(threading.Event):
 
     Attributes:
         signal: The signal that asked; None so far.
-        timeout: As above.
+        timeout: As above; it can be set until the request comes.
         timed_out: Whether the main thread was interrupted then.
         over: Set once the request is of no use any more.
     """
