@@ -9,6 +9,7 @@ read; lights, cameras and animations play no part.
 from __future__ import annotations
 
 import io
+import math
 from collections.abc import Iterator
 from itertools import count
 from typing import Any
@@ -37,7 +38,7 @@ def parse(data: bytes) -> list[Piece]:
     document = _document(data)
     if document.scene is None:
         raise FormatError("the COLLADA file has no scene")
-    metre = float(document.assetInfo.unitmeter or 1.0)
+    metre = _metre(document)
     pieces: list[Piece] = []
     visits, triangles = count(1), 0
     for node in document.scene.nodes:
@@ -55,6 +56,15 @@ def parse(data: bytes) -> list[Piece]:
                     hint="every instance of a node counts",
                 )
     return pieces
+
+
+def _metre(document: Any) -> float:
+    """Return the file's unit [m]."""
+    found = document.assetInfo.unitmeter
+    metre = 1.0 if found is None else float(found)
+    if not 0.0 < metre < math.inf:
+        raise FormatError(f"the unit of the COLLADA file must be positive, found {metre:g}")
+    return metre
 
 
 def _document(data: bytes) -> Any:

@@ -45,6 +45,8 @@ _EVERY = 2.0
 _DENT = 0.01
 _DEEPEST_DENT = 0.01
 """Depth of dents that are filled: a share of the size, a length [m]."""
+_SMALLEST = 1e-6
+"""Size of a mesh below which it has no area for engines [m]."""
 _ROUNDING = 1e-5
 """Tolerance of convexity where all edges must be convex, as a share of the size."""
 _MOST_CORNERS = 100_000
@@ -173,7 +175,7 @@ def _bound(size: float) -> float:
 
 def _cut(surface: WeldedSurface, *, static: bool) -> tuple[list[Solid], bool, float]:
     """Return solids, whether there is one for the whole, and their deviation."""
-    if not len(surface.faces):
+    if not len(surface.faces) or surface.size < _SMALLEST:
         return [], False, 0.0
     number = components(surface)
     closed = closed_parts(surface, number)

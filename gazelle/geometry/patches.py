@@ -38,6 +38,8 @@ _SKIN = (1e-3, 1e-2)
 """Least and greatest thickness of what is open behind [m]."""
 _THINNEST = (2e-4, 1e-3)
 """Least thickness of anything: a length [m], or a share of the size if that is less."""
+_FLAT = 4e-6
+"""Thickness of what has no volume in hulls, as a share of the size."""
 _DEEPEST = 0.05
 """Thickness up to which a body is filled behind its surface [m]."""
 _INSET, _BESIDE = 0.02, 0.0005
@@ -144,7 +146,8 @@ def behind_rims(
     measured = len(owners) - len(some)
     depths = np.full(count, _DEEPEST)
     np.minimum.at(depths, owners[:measured], room[:measured])
-    depths = np.maximum(depths, min(_THINNEST[0], _THINNEST[1] * surface.size))
+    least = max(min(_THINNEST[0], _THINNEST[1] * surface.size), _FLAT * surface.size)
+    depths = np.maximum(depths, least)
     straight = ~solid[rows]
     straight[some] |= room[measured:] >= depths[rows[some]]
     upper = np.where(straight[:, None], corners, inset)

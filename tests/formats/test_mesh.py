@@ -80,6 +80,13 @@ def test_dae_takes_unit_and_nodes_but_not_the_up_axis(tmp_path, up):
     assert len(data.faces) == 2
 
 
+@pytest.mark.parametrize("metre", ["0", "-1", "inf"])
+def test_a_dae_with_an_impossible_unit_is_refused(tmp_path, metre):
+    text = DAE.format(up="Z_UP").replace('meter="0.01"', f'meter="{metre}"')
+    with pytest.raises(FormatError, match="unit of the COLLADA file must be positive"):
+        load_mesh(saved(tmp_path, "m.dae", text))
+
+
 def test_scale_and_mirror(tmp_path):
     file = saved(tmp_path, "b.stl", binary_stl()).path
     data = load_mesh(Mesh("b.stl", file, scale=(2.0, 1.0, -1.0)))

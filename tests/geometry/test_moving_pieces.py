@@ -310,3 +310,10 @@ def test_small_static_meshes_keep_to_a_share_of_their_size(size):
     pieces = decompose(data(ball), static=True)
     assert pieces.promised == pytest.approx(0.01 * size)
     assert pieces.gap <= pieces.promised
+
+
+@pytest.mark.parametrize("static", [False, True])
+def test_a_mesh_in_wrong_units_collides_all_over(static):
+    mesh = hollows.made("bracket", 1e6)
+    pieces = decompose(mesh, static=static)
+    assert hollows.uncovered(mesh, pieces, 500) <= 10.0

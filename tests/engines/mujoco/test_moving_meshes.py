@@ -216,3 +216,15 @@ def test_a_wheel_on_a_fixed_axle_turns_unless_it_touches_with_friction(height, f
         joint.apply_effort(0.2)
         sim.run(seconds=0.1)
         assert float(np.ravel(joint.velocity)[0]) == pytest.approx(turns * 4.0, abs=0.02)
+
+
+@pytest.mark.parametrize("corner", [(0.0, 0.0, 0.0), (0.0, 1e-9, 0.0)])
+def test_a_mesh_without_area_is_named_once(corner, tmp_path):
+    file = tmp_path / "line.stl"
+    points = [(0.0, 0.0, 0.0), (1e-9, 0.0, 0.0), (2e-9, 0.0, 0.0), corner]
+    trimesh.Trimesh(points, [(0, 1, 2), (0, 1, 3)], process=False).export(file)
+    lines = [scenes.solid(name, Mesh(file.name, file)) for name in ("one", "other")]
+    with pytest.warns(EngineWarning, match=r"'line.stl' does not collide: .* no area") as told:
+        engine = make_engine("mujoco", scenes.world(*lines), threads=1)
+    assert len(told) == 1
+    engine.step(2)

@@ -101,6 +101,10 @@ class ShapeBuilder:
         key = (key_of(shape), static)
         if pieces.gap > pieces.promised and key not in self.pieces:
             _warn_of_gap(shape, pieces.gap, source)
+        if not pieces.solids and key not in self.pieces:
+            self.pieces[key] = [], np.zeros((0, 3))
+            text = f"the mesh '{shape.uri}' does not collide: its triangles have no area"
+            warnings.warn(EngineWarning(located(text, source)), stacklevel=2)
         return self._piece_geoms(key, pieces, pose)
 
     def data_options(self, data: MeshData, pose: Pose, *, static: bool) -> list[dict[str, Any]]:
