@@ -25,12 +25,13 @@ from xacro import substitution_args
 
 from gazelle.description import Parameters, Source
 from gazelle.errors import FormatError
-from gazelle.formats import expressions, xml
+from gazelle.formats import xml
 from gazelle.formats.lfs import refuse_pointer_file
 from gazelle.formats.limits import MAX_TEXT
 from gazelle.formats.reading import Reading
 from gazelle.formats.xacro_hints import hint_of
-from gazelle_ros.base import bounded_yaml, xacro_engine
+from gazelle_ros.base import bounded_expressions as expressions
+from gazelle_ros.base import bounded_texts, bounded_yaml, xacro_engine
 from gazelle_ros.base.bundled_packages import published, published_hint
 
 _LOCK = threading.Lock()  # the package keeps its state in module globals
@@ -129,6 +130,7 @@ def _run(name: str, data: bytes, reading: Reading) -> Parameters:
     with _LOCK, _patched(reading) as output:
         engine.init_stacks(name)
         _made.count = 0
+        expressions.begin()
         try:
             document = xacro_engine.prefix(_parse(data, name, reading), _reporter(reading))
             engine.process_doc(document, mappings=dict(reading.xacro_args))
@@ -205,7 +207,7 @@ def _patched(reading: Reading) -> Iterator[io.StringIO]:
 
     output = io.StringIO()
     symbols = engine._global_symbols  # noqa: SLF001  # the package has no public access
-    bounded: dict[str, Any] = {"range": expressions.bounded_range}
+    bounded: dict[str, Any] = {"range": expressions.bounded_range, "str": bounded_texts.text}
     inner = symbols["xacro"]
     with contextlib.ExitStack() as stack:
         for names, values in (
@@ -278,6 +280,8 @@ def _eval_text(text: str, symbols: Any) -> Any:
     if text and "$" not in text:
         return text
     value = _evaluate_text(text, symbols)
+    if isinstance(value, list | tuple):
+        bounded_texts.check_written([value])
     if isinstance(value, str) and len(value) > MAX_TEXT:
         raise FormatError(f"the expression makes more than {MAX_TEXT:,} characters")
     return value

@@ -133,3 +133,30 @@ def test_a_file_over_the_limit_is_not_read_a_second_time_for_mending(monkeypatch
         formats.load_string(sdf("<model name='m'>" + "<link name='l'/>" * 20 + "</model>"))
     assert caught.value.line == 3
     assert caught.value.hint
+
+
+@pytest.mark.parametrize(
+    "expression",
+    [
+        "9**9**9**9",
+        "'a' * 10**10",
+        "[list(range(99999)) for i in range(9999)]",
+        "list(map(lambda x: [0] * 99999, range(99999)))",
+        "p.format(1)",
+        "p2.join(['a' * 99999] * 99999)",
+        "[q29, q29]",
+    ],
+)
+def test_a_xacro_expression_that_makes_much_is_refused(expression):
+    doubled = "".join(
+        f"<xacro:property name='q{n}' value='${{[q{n - 1}, q{n - 1}]}}'/>" for n in range(1, 30)
+    )
+    text = (
+        "<robot name='r' xmlns:xacro='x'><xacro:property name='p' value='{:10000000000}'/>"
+        f"<xacro:property name='p2' value='b'/><xacro:property name='q0' value='1'/>{doubled}"
+        f'<link name="${{{expression}}}"/></robot>'
+    )
+    start = time.process_time()
+    with pytest.raises(FormatError, match=r"the expressions? make|may be padded|takes too long"):
+        formats.load_string(text)
+    assert time.process_time() - start < 5.0

@@ -25,7 +25,7 @@ def loaded(tmp_path, text):
     ("text", "said"),
     [
         (f"{TEN}<param name='p' value='$(arg a11)'/>", "characters, more than the limit"),
-        ("<param name='p' value=\"$(eval 'ab' * 10**7)\"/>", "characters, more than the limit"),
+        ("<param name='p' value=\"$(eval 'ab' * 10**7)\"/>", "makes more than 100000 items"),
         ("<param name='p' textfile='/dev/zero'/>", "more than the limit of 16,777,216 bytes"),
         ("<param name='p' binfile='/dev/zero'/>", "more than the limit of 16,777,216 bytes"),
         ("<rosparam file='/dev/zero'/>", "more than the limit of 16,777,216 bytes"),
@@ -43,6 +43,54 @@ def test_a_launch_file_that_makes_much_is_refused(tmp_path, text, said):
     with pytest.raises(LaunchError, match=said):
         loaded(tmp_path, text)
     assert time.process_time() - start < 10.0
+
+
+@pytest.mark.parametrize(
+    "expression",
+    [
+        "9**9**9**9",
+        "1 &lt;&lt; 10**10",
+        "'a' * 10**10",
+        "[1] * 10**10",
+        "max(range(10**12))",
+        "[x for x in range(10**5) for y in range(10**5)]",
+        "[[0] * 9999 for i in range(99999)]",
+        "'%10000000000d' % 1",
+        "'%*d' % (10**10, 1)",
+        "'{:10000000000}'.format(1)",
+        "'{:{}}'.format(1, 10**10)",
+        "f'{1:10000000000}'",
+        "'a'.ljust(10**10)",
+        "'b'.join(['a' * 99999] * 99999)",
+        "('a' * 99999).replace('', 'b' * 99999)",
+        "('a' * 99999).translate({97: 'b' * 99999})",
+        "('{0}' * 9999).format('a' * 99999)",
+        "len([a for a in [[]] for b in range(60) if [a.append([a[-1:], a[-1:]])] and str(a)])",
+    ],
+)
+def test_an_expression_that_makes_much_is_refused(tmp_path, expression):
+    start = time.process_time()
+    with pytest.raises(LaunchError, match=r"the expression|may be padded"):
+        loaded(tmp_path, f'<param name="p" value="$(eval {expression})"/>')
+    assert time.process_time() - start < 5.0
+
+
+@pytest.mark.parametrize(
+    ("expression", "value"),
+    [
+        ("'%.2f %s' % (1.5, 'a')", "1.50 a"),
+        ("'%d%%' % 5", "5%"),
+        ("'{:_>5}|{!r}'.format('a', 'b')", "____a|'b'"),
+        ("f'{1.5:.2f} {str(2)!r} {3}'", "1.50 '2' 3"),
+        ("', '.join(['a', 'b']).replace('a', 'cc')", "cc, b"),
+        ("7 % 4 + 1", 4),
+        ("'a' + 'b'.zfill(3)", "a00b"),
+        ("[1] + [2] == [1, 2]", True),
+        ("'localhost:11311 * 2000 {}'.format('x')", "localhost:11311 * 2000 x"),
+    ],
+)
+def test_an_expression_of_text_is_as_in_python(tmp_path, expression, value):
+    assert loaded(tmp_path, f'<param name="p" value="$(eval {expression})"/>') == [value]
 
 
 def test_a_pipe_is_no_file(tmp_path):

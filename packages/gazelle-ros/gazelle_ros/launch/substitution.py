@@ -13,7 +13,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from gazelle_ros import names
-from gazelle_ros.base.errors import did_you_mean
+from gazelle_ros.base import bounded_expressions, bounded_texts
+from gazelle_ros.base.errors import FormatError, did_you_mean
 from gazelle_ros.launch.errors import MissingArgumentError, SubstitutionError
 from gazelle_ros.launch.limits import check_text
 from gazelle_ros.launch.packages import Packages
@@ -27,9 +28,9 @@ _BUILTINS = {
     each.__name__: each
     for each in (
         abs, all, any, bool, dict, divmod, enumerate, filter, float, int, len, list, map, max, min,
-        pow, range, repr, reversed, round, set, sorted, str, sum, tuple, zip,
+        pow, repr, reversed, round, set, sorted, sum, tuple, zip,
     )
-}  # fmt: skip
+} | {"range": bounded_expressions.bounded_range, "str": bounded_texts.text}  # fmt: skip
 _MATH = {name: value for name, value in vars(math).items() if not name.startswith("_")}
 
 
@@ -68,9 +69,12 @@ class Substitution:
             raise SubstitutionError("an expression of $(eval) may not have a double underscore")
         scope = self._names()
         try:
-            return eval(expression, {"__builtins__": _BUILTINS, **scope})  # noqa: S307  # what the format is
+            bounded_expressions.begin()
+            return bounded_expressions.evaluate(expression, {**_BUILTINS, **scope})
         except SubstitutionError:
             raise
+        except FormatError as error:
+            raise SubstitutionError(f"$(eval {expression}): {error.message}") from None
         except NameError as error:
             name = getattr(error, "name", None) or "?"
             raise SubstitutionError(

@@ -1,6 +1,6 @@
-"""Python expressions in xacro files, kept from running away and from the machine.
+"""Python expressions in xacro and launch files, kept from running away and from the machine.
 
-xacro evaluates what stands in ``${}`` as Python. Here names that lead out of the values of
+What stands in ``${}`` and ``$(eval)`` is Python. Here names that lead out of the values of
 the file are refused, and an expression that would take long or much memory is stopped.
 """
 
@@ -8,18 +8,19 @@ from __future__ import annotations
 
 import ast
 import sys
+import threading
 import types
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, nullcontext
 from functools import lru_cache
 from typing import Any
 
-from gazelle.errors import FormatError
+from gazelle_ros.base import bounded_texts
+from gazelle_ros.base.bounded_texts import MAX_LENGTH, MAX_MADE, check_length
+from gazelle_ros.base.errors import FormatError
 
-MAX_LENGTH = 100_000
 MAX_BITS = 10_000
 MAX_STEPS = 200_000
-MAX_WIDTH = 1_000
 
 _INNARDS = ("gi_", "cr_", "ag_", "f_", "tb_", "co_")
 _LEADS_OUT = {
@@ -38,8 +39,21 @@ _LEADS_OUT = {
 }
 """Attributes that lead from a function or generator to Python itself."""
 _RUNS_AWAY = {"comb", "factorial", "lcm", "perm"}
-_PADS = {"center", "expandtabs", "ljust", "rjust", "zfill"}
 _LOOPS = (ast.GeneratorExp, ast.ListComp, ast.SetComp, ast.DictComp, ast.Lambda)
+
+
+class _ItemCount(threading.local):
+    """Number of items that the expressions of a file have made."""
+
+    count = 0
+
+
+_made = _ItemCount()
+
+
+def begin() -> None:
+    """Reset the count of items, for another file."""
+    _made.count = 0
 
 
 def evaluate(text: str, symbols: dict[str, Any], local: Mapping[str, Any] | None = None) -> Any:
@@ -55,10 +69,11 @@ def evaluate(text: str, symbols: dict[str, Any], local: Mapping[str, Any] | None
     """
     code, loops = _compiled(text.strip())
     symbols.update(__builtins__=_OPERATIONS)
-    if not loops:
-        return eval(code, symbols, local)  # noqa: S307  # expressions of files are checked
-    with _counted():
-        return eval(code, symbols, local)  # noqa: S307
+    try:
+        with _counted() if loops else nullcontext():
+            return eval(code, symbols, local)  # noqa: S307  # expressions of files are checked
+    except MemoryError:
+        raise FormatError("the expression takes too much memory") from None
 
 
 @lru_cache(maxsize=4096)
@@ -104,20 +119,27 @@ class _Guard(ast.NodeTransformer):
         return node if name is None else _call(name, node.left, node.right)
 
     def visit_Call(self, node: ast.Call) -> ast.AST:
-        """Check how wide text is padded."""
+        """Check methods that make long texts."""
         self.generic_visit(node)
-        pads = isinstance(node.func, ast.Attribute) and node.func.attr in _PADS
-        if pads:
-            node.args = [_call(_WIDTH, argument) for argument in node.args]
+        if isinstance(node.func, ast.Attribute) and node.func.attr in bounded_texts.METHODS:
+            method = ast.Constant(node.func.attr)
+            return _call(_CALL, node.func.value, method, *node.args, keywords=node.keywords)
         return node
+
+    def visit_FormattedValue(self, node: ast.FormattedValue) -> ast.AST:
+        """Check how wide an f-string writes a value."""
+        self.generic_visit(node)
+        spec = node.format_spec or ast.Constant("")
+        written = _call(_FORMATTED, node.value, ast.Constant(node.conversion), spec)
+        return ast.FormattedValue(written, -1, None)
 
 
 def _refused(name: str) -> FormatError:
     return FormatError(f"the name '{name}' may not be used in an expression")
 
 
-def _call(name: str, *arguments: ast.expr) -> ast.Call:
-    return ast.Call(ast.Name(name, ast.Load()), list(arguments), [])
+def _call(name: str, *arguments: ast.expr, keywords: Sequence[ast.keyword] = ()) -> ast.Call:
+    return ast.Call(ast.Name(name, ast.Load()), list(arguments), list(keywords))
 
 
 def _bits(value: object) -> int:
@@ -133,7 +155,8 @@ def _power(base: Any, exponent: Any) -> Any:
 def _product(left: Any, right: Any) -> Any:
     for one, other in ((left, right), (right, left)):
         if isinstance(one, str | list | tuple | bytes) and isinstance(other, int):
-            _check_length(len(one) * other)
+            check_length(len(one) * other)
+            _count(len(one) * other)
     if _bits(left) + _bits(right) > MAX_BITS:
         raise FormatError("the expression makes a number of too many digits")
     return left * right
@@ -145,15 +168,17 @@ def _shift(value: Any, places: Any) -> Any:
     return value << places
 
 
-def _width(value: Any) -> Any:
-    if isinstance(value, int) and value > MAX_WIDTH:
-        raise FormatError(f"text may be padded to {MAX_WIDTH} characters at most")
-    return value
+def _sum(left: Any, right: Any) -> Any:
+    if isinstance(left, str | list | tuple | bytes) and isinstance(right, type(left)):
+        _count(len(left) + len(right))
+    return left + right
 
 
-def _check_length(length: int) -> None:
-    if length > MAX_LENGTH:
-        raise FormatError(f"the expression makes more than {MAX_LENGTH} items")
+def _count(length: int) -> None:
+    """Count items that are made; a sum may be longer than what one product makes."""
+    _made.count += max(0, length)
+    if _made.count > MAX_MADE:
+        raise FormatError(f"the expressions make more than {MAX_MADE:,} items")
 
 
 def bounded_range(*arguments: int) -> range:
@@ -163,7 +188,8 @@ def bounded_range(*arguments: int) -> range:
         FormatError: It is longer.
     """
     found = range(*arguments)
-    _check_length(MAX_LENGTH + 1 if found[MAX_LENGTH:] else 0)
+    check_length(MAX_LENGTH + 1 if found[MAX_LENGTH:] else 0)
+    _count(len(found))
     return found
 
 
@@ -196,14 +222,25 @@ def _counted() -> Iterator[None]:
         sys.settrace(before)
 
 
-_POWER, _PRODUCT, _SHIFT, _WIDTH = "<power>", "<product>", "<shift>", "<width>"
+_POWER, _PRODUCT, _SHIFT, _SUM = "<power>", "<product>", "<shift>", "<sum>"
+_CALL, _FORMATTED, _PERCENT = "<call>", "<formatted>", "<percent>"
 """Names that no file can give to its own properties."""
 _CHECKED: dict[type[ast.operator], str] = {
+    ast.Add: _SUM,
     ast.LShift: _SHIFT,
+    ast.Mod: _PERCENT,
     ast.Mult: _PRODUCT,
     ast.Pow: _POWER,
 }
-_OPERATIONS = {_POWER: _power, _PRODUCT: _product, _SHIFT: _shift, _WIDTH: _width}
+_OPERATIONS = {
+    _CALL: bounded_texts.call,
+    _FORMATTED: bounded_texts.formatted,
+    _PERCENT: bounded_texts.percent,
+    _POWER: _power,
+    _PRODUCT: _product,
+    _SHIFT: _shift,
+    _SUM: _sum,
+}
 
 _BUILTINS: dict[str, Any] = {
     function.__name__: function
@@ -225,9 +262,8 @@ _BUILTINS: dict[str, Any] = {
         round,
         set,
         sorted,
-        str,
         sum,
         tuple,
         zip,
     )
-} | {"range": bounded_range}
+} | {"range": bounded_range, "str": bounded_texts.text}
