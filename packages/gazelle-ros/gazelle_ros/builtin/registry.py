@@ -169,6 +169,9 @@ _OWN = {
             "buffer_server": "gazelle_ros.builtin.buffer_server:main",
         }),
         BuiltinPackage("tf2_tools", {"view_frames.py": "gazelle_ros.builtin.tf_tools:frames"}),
+        BuiltinPackage("tf2_web_republisher", {
+            "tf2_web_republisher": "gazelle_ros.builtin.tf_republisher:main",
+        }),
         BuiltinPackage("topic_tools", {
             "relay": "gazelle_ros.builtin.topic_tools:relay",
             "throttle": "gazelle_ros.builtin.topic_tools:throttle",
