@@ -25,7 +25,14 @@ from gazelle.geometry.hull import Hull, Solid, convex_hull, spread_directions
 from gazelle.geometry.mesh_data import MeshData
 from gazelle.geometry.patches import joined_flat, thick_patches
 from gazelle.geometry.probing import spread
-from gazelle.geometry.surface import WeldedSurface, clean, closed_parts, components, volumes_of
+from gazelle.geometry.surface import (
+    WeldedSurface,
+    clean,
+    closed_parts,
+    components,
+    turned,
+    volumes_of,
+)
 from gazelle.native.processors import processors
 
 CACHED = 256
@@ -183,7 +190,7 @@ def _cut(surface: WeldedSurface, *, static: bool) -> tuple[list[Solid], bool, fl
     cavities, around = _cavities(surface, number, closed & (volume < 0.0))
     if not static:  # what looks inwards and moves is no room
         inverted = closed & (volume < 0.0) & ~cavities
-        surface, volume = _turned(surface, inverted[number]), np.where(inverted, -volume, volume)
+        surface, volume = turned(surface, inverted[number]), np.where(inverted, -volume, volume)
     whole = closed & _convex_parts(surface, number) & (volume > 0.0) & ~around
     dent = min(_DENT * surface.size, _DEEPEST_DENT if static else MOVING)
     outwards = bool((volume >= 0.0).all())
@@ -211,15 +218,6 @@ def _solids_of(
     ends = np.searchsorted(number[order], parts, side="right")
     rows = [order[i:j] for i, j in zip(starts.tolist(), ends.tolist(), strict=True)]
     return [(part.vertices, part.faces.astype(np.int32)) for part in map(surface.part, rows)]
-
-
-def _turned(surface: WeldedSurface, rows: NDArray[np.bool_]) -> WeldedSurface:
-    """Return a surface with some of its faces turned over."""
-    if not rows.any():
-        return surface
-    faces, normals = surface.faces.copy(), surface.normals.copy()
-    faces[rows], normals[rows] = faces[rows, ::-1], -normals[rows]
-    return WeldedSurface(surface.vertices, faces, normals, surface.areas)
 
 
 def _convex_parts(surface: WeldedSurface, number: NDArray[np.intp]) -> NDArray[np.bool_]:

@@ -47,6 +47,23 @@ def half_edge_twins(points: Floats, faces: Indices) -> Indices:
     return twins
 
 
+def unlike_neighbors(points: Floats, faces: Indices) -> Indices:
+    """Return pairs of triangles at an edge of theirs alone that face opposite ways, shape (k, 2).
+
+    Args:
+        points: [m], shape (n, 3).
+        faces: Corners, shape (m, 3).
+    """
+    edges = half_edges(faces)
+    keys = edges.min(axis=1) * np.int64(len(points)) + edges.max(axis=1)
+    order = np.argsort(keys, kind="stable")
+    first = np.flatnonzero(np.diff(keys[order], prepend=-1))
+    pairs = first[np.diff(np.append(first, len(keys))) == 2]
+    one, other = order[pairs], order[pairs + 1]
+    alike = edges[one, 0] == edges[other, 0]
+    return np.stack([one[alike], other[alike]], axis=1) // 3
+
+
 def _pair_around(
     points: Floats, faces: Indices, rows: Indices, groups: Indices, twins: Indices
 ) -> None:

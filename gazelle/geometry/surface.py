@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Bools, Floats, Indices
-from gazelle.geometry.half_edges import half_edge_twins
+from gazelle.geometry.half_edges import half_edge_twins, unlike_neighbors
 from gazelle.geometry.ray_hits import TriangleRays
 from gazelle.geometry.slivers import flip_slivers
 
@@ -81,7 +81,8 @@ def clean(vertices: Floats, faces: NDArray[np.int32]) -> WeldedSurface:
     those beside them are divided there, so that a closed surface stays closed.
 
     Of two faces that are each other's back, as in sheets drawn from both sides, the first
-    is kept. Where two bodies touch they are one, and neither is.
+    is kept. Where two bodies touch they are one, and neither is. Triangles that face another way than
+    most of what they hang together with are turned over.
     """
     corners = vertices[faces].reshape(-1, 3)
     step = max(float(np.ptp(corners, axis=0).max()) / (2.0**_BITS - 2.0), 1e-300)
@@ -93,7 +94,37 @@ def clean(vertices: Floats, faces: NDArray[np.int32]) -> WeldedSurface:
     welded = flip_slivers(points, _single(points, welded), _SLIVER * step)
     normals, doubled = _normals(points, welded)
     real = doubled > step * step
-    return WeldedSurface(points, welded[real], normals[real], doubled[real] / 2.0)
+    return _one_way(WeldedSurface(points, welded[real], normals[real], doubled[real] / 2.0))
+
+
+def _one_way(surface: WeldedSurface) -> WeldedSurface:
+    """Return a surface whose triangles face as most of those do that they hang together with."""
+    unlike = unlike_neighbors(surface.vertices, surface.faces)
+    if not len(unlike):
+        return surface
+    number = components(surface)
+    ends = np.unique(number[unlike], axis=0)
+    source, target = np.concatenate([ends, ends[:, ::-1]]).T
+    group, side = np.arange(number.max() + 1), np.ones(number.max() + 1)
+    while True:  # each part takes the least number beside it, and faces against that part
+        least = group.copy()
+        np.minimum.at(least, target, group[source])
+        rows = np.flatnonzero((least < group)[target] & (group[source] == least[target]))
+        if not len(rows):
+            break
+        side[target[rows]], group = -side[source[rows]], least
+    side, group = side[number], group[number]
+    side *= np.sign(np.bincount(group, side * surface.areas))[group]
+    return turned(surface, side < 0.0)
+
+
+def turned(surface: WeldedSurface, rows: Bools) -> WeldedSurface:
+    """Return a surface with some of its faces turned over."""
+    if not rows.any():
+        return surface
+    faces, normals = surface.faces.copy(), surface.normals.copy()
+    faces[rows], normals[rows] = faces[rows, ::-1], -normals[rows]
+    return WeldedSurface(surface.vertices, faces, normals, surface.areas)
 
 
 def _normals(points: Floats, faces: Indices) -> tuple[Floats, Floats]:

@@ -317,3 +317,17 @@ def test_a_mesh_in_wrong_units_collides_all_over(static):
     mesh = hollows.made("bracket", 1e6)
     pieces = decompose(mesh, static=static)
     assert hollows.uncovered(mesh, pieces, 500) <= 10.0
+
+
+@pytest.mark.parametrize("name", ["bracket", "thin mug", "torus"])
+def test_triangles_turned_over_at_random_are_turned_back(name):
+    mesh = hollows.made(name, 1.0)
+    faces = mesh.faces.copy()
+    some = np.random.default_rng(0).random(len(faces)) < 0.3
+    faces[some] = faces[some, ::-1]
+    surface = clean(mesh.vertices, faces)
+    assert surface.is_closed()
+    assert surface.volume == pytest.approx(clean(mesh.vertices, mesh.faces).volume)
+    pieces = decompose(MeshData(mesh.vertices, faces), static=False)
+    assert len(pieces.solids) < 60
+    assert hollows.protrusion(mesh, pieces, 500) <= pieces.gap <= pieces.promised
