@@ -51,10 +51,12 @@ def integer(what: str, value: Any, least: int = 1, most: int = MOST) -> int:
     Raises:
         EngineError: It is not an int, or too small or large.
     """
+    if isinstance(value, bool):
+        raise _not_int(what, value)
     try:
         number = operator.index(value)
     except TypeError:
-        raise EngineError(f"{what} must be an int, not {value!r}") from None
+        raise _not_int(what, value) from None
     if not least <= number <= most:
         raise EngineError(f"{what} must be at least {least} and at most {most}, not {number}")
     return number
@@ -128,3 +130,7 @@ def check_model(model: Model, error: type[Error] = EngineError) -> None:
         raise error(
             f"model '{name}' cannot be at {pose}: that is too far away", source=model.source
         )
+
+
+def _not_int(what: str, value: Any) -> EngineError:
+    return EngineError(f"{what} must be an int, not {value!r:.60}")

@@ -50,7 +50,7 @@ class TwistInput(StatePart):
     steers = False
 
     def __init__(self, nworld: int, topic: str) -> None:
-        integer("the number of worlds", nworld, 1, MAX_WORLDS)
+        nworld = integer("the number of worlds", nworld, 1, MAX_WORLDS)
         self.topic = topic
         self._revision = np.zeros(1, np.int64)
         self.linear: Floats = np.zeros((nworld, 3))
