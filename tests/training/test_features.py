@@ -113,7 +113,8 @@ def test_an_angle_that_is_not_observed_is_refused():
 
 @pytest.mark.parametrize("std", [0.1, 2.0])
 def test_first_actions_scatter_as_the_recipe_says(std):
-    recipe = with_values(recipe_for("Corridor", "ppo"), {"initial_std": std, "angles": [1]})
+    values = {"initial_std": std, "angles": [1], "features": False}
+    recipe = with_values(recipe_for("Corridor", "ppo"), values)
     learner = build_learner(recipe, VectorEnvAdapter(Ranges(4, continuous=True)), seed=0)
     actor = export_actor(learner.policy)
     assert actor.features.angles.tolist() == [1]
