@@ -174,9 +174,9 @@ def _has_nan(value: Any) -> bool:
 
 
 def _is_nowhere(worlds: Any) -> bool:
-    """Return whether indices of two worlds are of others too, or none."""
+    """Return whether indices of worlds are of none or of others; a mask of all is of them."""
     rows = np.asarray(worlds)
-    ints = rows.dtype.kind in "iu" and rows.ndim == 1
+    ints = rows.dtype.kind in "iub" and rows.ndim == 1
     return rows.size > 0 and not (ints and 0 <= rows.min() <= rows.max() <= 1)
 
 
