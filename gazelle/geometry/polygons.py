@@ -32,7 +32,8 @@ def convex_polygons(outlines: Sequence[Outline]) -> list[Floats]:
     open_parts: list[_Slab] = []
     for low, high in itertools.pairwise(levels.tolist()):
         slab = [_Slab(corners, low, high) for corners in _slab(edges, low, high)]
-        open_parts = [_grown(part, open_parts, size) for part in slab]
+        tops = np.array([part.ends(part.top) for part in open_parts]).reshape(-1, 2)
+        open_parts = [_grown(part, _touching(part, open_parts, tops), size) for part in slab]
         parts.extend(part for part in open_parts if part.bottom == low)
     # a part that grew stands in the list as it was begun; its corners are the grown ones
     return [part.corners for part in parts]
@@ -45,6 +46,18 @@ class _Slab:
     corners: Floats
     bottom: float
     top: float
+
+    def ends(self, level: float) -> tuple[float, float]:
+        """Return the least and the greatest x at its bottom or top."""
+        x = self.corners[self.corners[:, 1] == level, 0]
+        return float(x.min()), float(x.max())
+
+
+def _touching(part: _Slab, below: list[_Slab], tops: Floats) -> list[_Slab]:
+    """Return the parts below whose tops, shape (n, 2), meet the bottom of one: few of many."""
+    left, right = part.ends(part.bottom)
+    near = (tops[:, 0] <= right) & (tops[:, 1] >= left)
+    return [below[place] for place in np.flatnonzero(near)]
 
 
 def _edges(outlines: Sequence[Outline]) -> Floats:

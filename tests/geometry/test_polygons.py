@@ -1,5 +1,8 @@
 """Outlines become convex polygons that cover just what they enclose."""
 
+import math
+import time
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -48,3 +51,16 @@ def test_any_star_is_covered_by_convex_polygons(seed, count):
     assert total(found) == pytest.approx(abs(planar_area(star)), abs=1e-6)
     for polygon in found:
         assert planar_area(polygon[planar_hull(polygon)]) == pytest.approx(planar_area(polygon))
+
+
+def test_a_star_of_many_points_takes_a_second():
+    """Hulls with all parts below would take twelve seconds."""
+    corners = [
+        (radius * math.cos(angle), radius * math.sin(angle))
+        for radius, angle in ((1 + 2 * (n % 2), 2 * math.pi * n / 400) for n in range(400))
+    ]
+    start = time.process_time()
+    parts = convex_polygons([corners])
+    assert time.process_time() - start < 5.0
+    whole = abs(planar_area(np.array(corners)))
+    assert math.isclose(sum(map(planar_area, parts)), whole, rel_tol=1e-9)
