@@ -28,13 +28,19 @@ def test_a_drift_of_noise_stays_a_number(interval):
 
 @pytest.mark.parametrize("period", [*WRONG, math.inf, -1.0])
 def test_integrals_of_controllers_stay_numbers(period):
-    manager = ControllerManager(RobotHardware("r"))
+    manager = ControllerManager(RobotHardware())
     for update in (
         lambda: manager.update(0, period),
         lambda: manager.catch_up(0, 1, period),
     ):
         with pytest.raises(ControlError, match="a period must be a finite number"):
             update()
+
+
+@pytest.mark.parametrize("worlds", [[-1], [2], [math.nan], [[0]]])
+def test_controllers_start_again_in_worlds_that_are_there(worlds):
+    with pytest.raises(ControlError, match="worlds must be"):
+        ControllerManager(RobotHardware(2)).update(0, 0.1, restart=worlds)
 
 
 @pytest.mark.parametrize(("time", "most"), [(math.nan, 5.0), (math.inf, 5.0), (0.0, math.nan)])

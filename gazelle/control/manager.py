@@ -11,6 +11,7 @@ from typing import Any, Final, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.argument_checks import world_indices
 from gazelle.array_types import Worlds
 from gazelle.control import registry
 from gazelle.control.control_law import ControlLaw
@@ -235,6 +236,8 @@ class ControllerManager:
             restart: Worlds in which what runs starts again first, as after an emergency stop.
         """
         self.now_ns = now_ns
+        if restart is not None:
+            restart = world_indices(restart, self.hardware.nworld, ControlError)
         self._loaded.control(now_ns, period, restart)
         if self._switch is not None:
             self._go_on(self._switch)
