@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import io
 import math
+import tracemalloc
 
 import pytest
 
 from gazelle_ros import Duration, Time
-from gazelle_ros.bags import Bag, BagUnindexedError
+from gazelle_ros.bags import Bag, BagFormatError, BagUnindexedError, compression
 from gazelle_ros.cli.main import main
 from gazelle_ros.messages import class_from_text
 
@@ -106,3 +107,26 @@ def test_sizes_of_chunks_that_cannot_be(tmp_path, size):
         pytest.raises(ValueError, match="greater than or equal to zero"),
     ):
         bag.chunk_threshold = size
+
+
+@pytest.mark.parametrize("kind", ["bz2", "lz4"])
+@pytest.mark.parametrize("size", [0, 10, 2**32 - 1])
+def test_a_chunk_that_grows_beyond_its_size_or_the_limit_is_refused(kind, size, monkeypatch):
+    monkeypatch.setattr(compression, "LARGEST", 100_000)
+    packed = compression.compress(kind, bytes(50_000_000))
+    tracemalloc.start()
+    with pytest.raises(BagFormatError, match="more than"):
+        compression.decompress(kind, packed, size)
+    most = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert most < 10_000_000
+
+
+@pytest.mark.parametrize("kind", ["bz2", "lz4"])
+@pytest.mark.parametrize("data", [b"", b"a", bytes(range(256)) * 1000])
+def test_chunks_are_compressed_and_decompressed_whole(kind, data):
+    packed = compression.compress(kind, data)
+    assert compression.decompress(kind, packed, len(data)) == data
+    assert compression.decompress(kind, memoryview(packed), 0) == data
+    with pytest.raises(BagFormatError, match="cannot be decompressed"):
+        compression.decompress(kind, packed[:-3], len(data))

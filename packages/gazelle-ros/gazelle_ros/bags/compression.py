@@ -11,6 +11,8 @@ from gazelle_ros.base.errors import MissingExtraError, did_you_mean
 
 NONE, BZ2, LZ4 = "none", "bz2", "lz4"
 KINDS = (NONE, BZ2, LZ4)
+LARGEST = 512 * 1024 * 1024
+"""Limit of a decompressed chunk; ROS writes 768 KiB and the message that passes it [bytes]."""
 
 
 def check(kind: str) -> str:
@@ -48,18 +50,24 @@ def decompress(kind: str, data: bytes | memoryview, size: int) -> bytes:
     Args:
         kind: Kind of compression.
         data: The compressed data.
-        size: Its length before, for a check.
+        size: Its length before, for a check; 0 if unknown.
 
     Raises:
-        BagFormatError: The data are damaged, or of another length.
+        BagFormatError: The data are damaged, of another length, or beyond the limit.
         MissingExtraError: It needs a package that is not installed.
     """
     if kind not in KINDS:
         raise BagFormatError(f"the compression '{kind}' is unknown")
+    most = min(size or LARGEST, LARGEST)
+    reader = bz2.BZ2Decompressor() if kind == BZ2 else _lz4().LZ4FrameDecompressor()
     try:
-        found = bz2.decompress(data) if kind == BZ2 else bytes(_lz4().decompress(data))
+        found = bytes(reader.decompress(bytes(data), max_length=most + 1))
     except (OSError, ValueError, RuntimeError, EOFError) as error:
         raise BagFormatError(f"a chunk cannot be decompressed: {error}") from None
+    if len(found) > most:
+        raise BagFormatError(f"a chunk holds more than {most} bytes, of {len(data)} in the file")
+    if not reader.eof:
+        raise BagFormatError("a chunk cannot be decompressed: its end is missing")
     if size and len(found) != size:
         raise BagFormatError(f"a chunk holds {len(found)} bytes instead of {size}")
     return found
