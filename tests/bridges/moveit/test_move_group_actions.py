@@ -40,6 +40,7 @@ class Robot:
     def __init__(self, client):
         self.client, self.how, self.where = client, "arrive", {}
         self.goals, self.began = [], threading.Event()
+        self.moving = threading.Lock()  # else the older of two positions may be published last
         self.servers = []
         for name in ("torso_controller", "arm_controller"):
             self.serve(f"{name}/follow_joint_trajectory", "FollowJointTrajectory")
@@ -61,8 +62,9 @@ class Robot:
                 return
             if kind == "FollowJointTrajectory":
                 last = goal.trajectory.points[-1].positions
-                self.where |= dict(zip(goal.trajectory.joint_names, last, strict=True))
-                self.client.stand(**self.where)
+                with self.moving:
+                    self.where |= dict(zip(goal.trajectory.joint_names, last, strict=True))
+                    self.client.stand(**self.where)
             server.set_succeeded()
 
         action = load_message(f"control_msgs/{kind}Action")

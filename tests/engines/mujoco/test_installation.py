@@ -91,4 +91,5 @@ def test_the_command_says_it_in_one_line(tmp_path):
     )
     assert done.returncode == 1
     assert "Traceback" not in done.stderr
-    assert done.stderr.startswith("gazelle: error: MuJoCo cannot be imported")
+    lines = [line for line in done.stderr.splitlines() if "loading" not in line]  # if it is slow
+    assert lines[0].startswith("gazelle: error: MuJoCo cannot be imported")
