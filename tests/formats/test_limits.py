@@ -62,6 +62,7 @@ def test_a_world_of_too_many_things_that_move_is_refused(monkeypatch):
     ("name", "value", "joints", "said"),
     [
         ("MAX_CHAIN", 5, [(n, n + 1) for n in range(7)], "link 'm::l5' hangs on 5 others"),
+        ("MAX_MOVING", 6, [(0, n) for n in range(1, 8)], "8 links that move, more than"),
         ("MAX_SOLIDS", 6, [(0, n) for n in range(1, 8)], "8 links that collide, more than"),
     ],
 )

@@ -8,7 +8,7 @@ from collections.abc import Collection, Mapping
 import mujoco
 
 from gazelle.description import Box, Capsule, Cylinder, Ellipsoid, Model, Sphere, World
-from gazelle.engines.limits import MAX_CHAIN, MAX_COORDINATES, MAX_SOLIDS
+from gazelle.engines.limits import MAX_CHAIN, MAX_COORDINATES, MAX_MOVING, MAX_SOLIDS
 from gazelle.engines.mujoco.compiler.motors import AXES
 from gazelle.errors import EngineError, EngineWarning
 from gazelle.kinematics.tree import TreeLink
@@ -37,11 +37,12 @@ def check_size(bodies: Mapping[str, list[TreeLink]]) -> None:
 
     Raises:
         EngineError: It has more than ``MAX_COORDINATES`` coordinates of motion, a chain of more
-            than ``MAX_CHAIN`` links, or a model with more than ``MAX_SOLIDS`` that collide.
+            than ``MAX_CHAIN`` links, or a model with more than ``MAX_MOVING`` links that move or
+            ``MAX_SOLIDS`` that collide.
     """
     for parts in bodies.values():
         _check_chains(parts)
-        _check_solids(parts)
+        _check_counts(parts)
     count = coordinate_count(bodies)
     if count > MAX_COORDINATES:
         raise EngineError(
@@ -65,16 +66,20 @@ def _check_chains(parts: list[TreeLink]) -> None:
             )
 
 
-def _check_solids(parts: list[TreeLink]) -> None:
-    """Check the number of links of a model that collide and move."""
-    solid = [body for body in parts if body.link.collisions and body.root != "static"]
-    if len(solid) > MAX_SOLIDS:
-        raise EngineError(
-            f"the model has {len(solid):,} links that collide, more than the limit of "
-            f"{MAX_SOLIDS:,}",
-            source=solid[MAX_SOLIDS].link.source,
-            hint="leave out collisions of links that touch nothing",
-        )
+def _check_counts(parts: list[TreeLink]) -> None:
+    """Check the numbers of links of a model that move, and of those that collide as well."""
+    moving = [body for body in parts if body.root != "static"]
+    solid = [body for body in moving if body.link.collisions]
+    for found, what, limit, hint in (
+        (moving, "move", MAX_MOVING, "join some of them by fixed joints"),
+        (solid, "collide", MAX_SOLIDS, "leave out collisions of links that touch nothing"),
+    ):
+        if len(found) > limit:
+            raise EngineError(
+                f"the model has {len(found):,} links that {what}, more than the limit of {limit:,}",
+                source=found[limit].link.source,
+                hint=hint,
+            )
 
 
 def coordinate_count(bodies: Mapping[str, list[TreeLink]]) -> int:
