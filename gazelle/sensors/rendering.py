@@ -20,6 +20,7 @@ from gazelle.errors import SimulationError
 from gazelle.rendering.lamps import SKY_HORIZON, SKY_TOP, SUN
 from gazelle.rendering.surface_materials import GREY
 from gazelle.sensors.limits import MAX_PIXELS
+from gazelle_ros.base.real_numbers import finite
 
 _LINE = 0.012  # half width of the lines of the ground grid [m]
 _GAMMA = 1.35  # lifts the shadows to what a screen shows well
@@ -102,17 +103,19 @@ def directions_of_view(view: View, samples: int) -> Floats:
 
 
 def _check(view: View, samples: int) -> None:
-    sides = [*map(int, (view.width, view.height, samples))]
-    if min(sides) < 1 or sides[0] * sides[1] * sides[2] ** 2 > MAX_PIXELS:
+    sides = (view.width, view.height, samples)
+    whole = all(isinstance(n, int | np.integer) and not isinstance(n, bool) for n in sides)
+    if not whole or min(sides) < 1 or math.prod(map(int, (*sides, samples))) > MAX_PIXELS:
         raise SimulationError(
             f"a picture of {view.width} x {view.height} pixels with {samples} x {samples} rays each "
             f"cannot be taken: there must be one ray and {MAX_PIXELS:,} at most"
         )
-    if not 0.0 < view.horizontal_fov < math.pi:
+    angle = finite(view.horizontal_fov)
+    if angle is None or not 0.0 < angle < math.pi:
         raise SimulationError(
             f"the field of view must be more than 0 and less than pi, not {view.horizontal_fov}"
         )
-    if not all(map(math.isfinite, view.pose.numbers)):
+    if not isinstance(view.pose, Pose) or not all(map(math.isfinite, view.pose.numbers)):
         raise SimulationError(f"the pose of a view must be finite, not {view.pose}")
 
 

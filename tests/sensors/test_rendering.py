@@ -9,6 +9,7 @@ import scenes
 
 from gazelle.description import Light, Material, Plane, Pose, Scene, Sphere, Visual
 from gazelle.engines.tracer import make_tracer
+from gazelle.errors import SimulationError
 from gazelle.sensors import View, look_at, render
 
 RED = Material(diffuse=(1.0, 0.0, 0.0, 1.0))
@@ -82,3 +83,16 @@ def test_a_world_without_visuals_is_all_background():
     world = dataclasses.replace(scenes.world(scenes.ball()), scene=PLAIN)
     image = picture(world, (-3.0, 0.0, 0.0), (0.0, 0.0, 0.0))
     assert (image == [0, 0, 255]).all()
+
+
+@pytest.mark.parametrize("field", ["width", "height", "samples", "horizontal_fov", "pose"])
+@pytest.mark.parametrize(
+    "value", [np.zeros(3), np.array([]), np.array(["a"]), [1, 2], "x", None, True, 10**30, 0, -1]
+)
+def test_a_view_of_wrong_values_is_refused(field, value):
+    whole = {"pose": Pose(), "width": 8, "height": 8}
+    if field == "horizontal_fov" and value is True:
+        value = math.pi
+    world = ball_over_floor()
+    with pytest.raises(SimulationError):
+        render(make_tracer(world), world, View(**whole | {field: value}))
