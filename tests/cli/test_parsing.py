@@ -54,6 +54,13 @@ def test_what_is_no_port_is_refused(text):
         port_number(text)
 
 
+@pytest.mark.parametrize("text", ["0", "00", "65536", "x"])
+def test_a_master_that_others_find_has_a_port(cli, text):
+    code, _, err = cli("launch", "-p", text, "a.launch")
+    assert code == 2
+    assert "expected a port from" in err
+
+
 @pytest.mark.parametrize("word", [" ", "", "\t", "=", "--="])
 def test_an_extra_word_is_refused_whatever_it_is(capsys, word):
     with pytest.raises(SystemExit, match="2"):

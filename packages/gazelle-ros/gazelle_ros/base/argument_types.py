@@ -80,3 +80,11 @@ def port_number(text: str) -> int:
     if number is None or not 0 <= number < 65536:
         raise argparse.ArgumentTypeError(f"expected a port from 0 to 65535, not '{text}'")
     return number
+
+
+def peer_port(text: str) -> int:
+    """Return a TCP port that others are told, so not 0."""
+    number = port_number(text)
+    if not number:
+        raise argparse.ArgumentTypeError(f"expected a port from 1 to 65535, not '{text}'")
+    return number

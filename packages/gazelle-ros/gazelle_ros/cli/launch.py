@@ -18,7 +18,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gazelle_ros.base.argument_types import port_number, positive_float
+from gazelle_ros.base.argument_types import peer_port, positive_float
 from gazelle_ros.base.errors import Error
 from gazelle_ros.base.output import say_line
 from gazelle_ros.base.program import program_name
@@ -60,7 +60,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     runs.add_argument(
         "--wait", action="store_true", help="wait for a master instead of starting one"
     )
-    runs.add_argument("-p", "--port", type=port_number, help="port of the master")
+    runs.add_argument("-p", "--port", type=peer_port, help="port of the master")
     runs.add_argument(
         "--nodes-survive",
         action="store_true",
