@@ -78,6 +78,6 @@ OPENAI_ROS: dict[str, Recipe] = {
         bearing=Bearing(x=5, y=6, yaw=9, goal=(5.0, 0.0)),
         training_options={**_DRIVING.training_options, "course": [1, 2, 4, 8, 16]},
     ),
-    "TurtleBot3World": _ROAMING,
+    "TurtleBot3World": dataclasses.replace(_ROAMING, steps=1_000_000),
 }
 """By the task's name."""
