@@ -62,7 +62,7 @@ _OF_TASKS: dict[tuple[str, str], dict[str, Any]] = {
     ("TurtleBot3Stage1", "td3"): {"steps": 82_000},
     ("TurtleBot3Stage4", "dqn"): {"steps": 600_000},
     ("TurtleBot3Stage4", "tqc"): {"goal_reward": _CHEAP_COLLISIONS},
-    ("TurtleBot3Stage4", "td3"): {"goal_reward": _CHEAP_COLLISIONS, "steps": 128_000},
+    ("TurtleBot3Stage4", "td3"): {"goal_reward": _CHEAP_COLLISIONS, "steps": 256_000},
     # A step is paid for centimetres of progress, so the entropy must weigh as little.
     ("TurtleBot3Stage4", "sac"): {
         "goal_reward": _CHEAP_COLLISIONS,
@@ -74,7 +74,7 @@ _OF_TASKS: dict[tuple[str, str], dict[str, Any]] = {
     # One critic believes too much of what it has not seen: no more than rewards can add up to.
     ("TurtleBot3Stage4", "ddpg"): {
         "goal_reward": _CHEAP_COLLISIONS,
-        "steps": 128_000,
+        "steps": 256_000,
         "settings": OffPolicySettings(gradient_steps=4, bound_values=True, policy_delay=2),
     },
 }
