@@ -83,7 +83,7 @@ def port_number(text: str) -> int:
 
 
 def peer_port(text: str) -> int:
-    """Return a TCP port that others are told, so not 0."""
+    """Return a TCP port that others connect to, so not 0."""
     number = port_number(text)
     if not number:
         raise argparse.ArgumentTypeError(f"expected a port from 1 to 65535, not '{text}'")
