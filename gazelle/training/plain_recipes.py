@@ -55,7 +55,7 @@ OFF_POLICY: dict[str, Recipe] = {
 """The algorithms with a replay memory, by name."""
 
 # Where standing still is an action, a dear collision teaches just that: with it TD3 reaches 28 %
-# of stage 4's held-out goals after 97,000 steps, with this 90 % after 128,000.
+# of stage 4's held-out goals after 97,000 steps, with this 90 % after 128,000 and 95 % after 256,000.
 _CHEAP_COLLISIONS = GoalReward(goal=2.0, collision=1.0)
 
 _OF_TASKS: dict[tuple[str, str], dict[str, Any]] = {
