@@ -169,7 +169,7 @@ RECORDS = {
     *("LaserScan", "ModelState", "PhysicsSettings", "PoseEstimate", "PressureReading"),
     *("RunSummary", "Sample", "SonarReading", "TrainResult", "TrajectoryProgress"),
 }
-"""What calls return, which nothing takes: what was measured may be NaN."""
+"""Results of calls, which nothing takes: what was measured may be NaN."""
 
 
 @pytest.mark.slow

@@ -29,13 +29,8 @@ def half_edge_twins(points: Floats, faces: Indices) -> Indices:
         faces: Corners, shape (m, 3).
     """
     edges = half_edges(faces)
-    keys = edges.min(axis=1) * np.int64(len(points)) + edges.max(axis=1)
-    order = np.argsort(keys, kind="stable")
-    first = np.ones(len(keys), bool)
-    first[1:] = keys[order[1:]] != keys[order[:-1]]
-    starts = np.flatnonzero(first)
-    sizes = np.diff(np.append(starts, len(keys)))
-    twins = np.full(len(keys), -1)
+    order, starts, sizes = _by_edge(edges, len(points))
+    twins = np.full(len(edges), -1)
     pairs = starts[sizes == 2]
     one, other = order[pairs], order[pairs + 1]
     back = edges[one, 0] != edges[other, 0]
@@ -43,7 +38,8 @@ def half_edge_twins(points: Floats, faces: Indices) -> Indices:
     twins[one], twins[other] = other, one
     many = np.repeat(sizes > 2, sizes)
     if many.any():
-        _pair_around(points, faces, order[many], np.cumsum(first)[many], twins)
+        groups = np.repeat(np.arange(len(sizes)), sizes)
+        _pair_around(points, faces, order[many], groups[many], twins)
     return twins
 
 
@@ -55,13 +51,24 @@ def unlike_neighbors(points: Floats, faces: Indices) -> Indices:
         faces: Corners, shape (m, 3).
     """
     edges = half_edges(faces)
-    keys = edges.min(axis=1) * np.int64(len(points)) + edges.max(axis=1)
-    order = np.argsort(keys, kind="stable")
-    first = np.flatnonzero(np.diff(keys[order], prepend=-1))
-    pairs = first[np.diff(np.append(first, len(keys))) == 2]
+    order, starts, sizes = _by_edge(edges, len(points))
+    pairs = starts[sizes == 2]
     one, other = order[pairs], order[pairs + 1]
     alike = edges[one, 0] == edges[other, 0]
     return np.stack([one[alike], other[alike]], axis=1) // 3
+
+
+def _by_edge(edges: Indices, count: int) -> tuple[Indices, Indices, Indices]:
+    """Return half-edges sorted by their edges, and the start and size of each edge's run.
+
+    Args:
+        edges: Tail and head of each, shape (n, 2).
+        count: Number of points.
+    """
+    keys = edges.min(axis=1) * np.int64(count) + edges.max(axis=1)
+    order = np.argsort(keys, kind="stable")
+    starts = np.flatnonzero(np.diff(keys[order], prepend=-1))
+    return order, starts, np.diff(np.append(starts, len(keys)))
 
 
 def _pair_around(
