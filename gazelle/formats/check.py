@@ -89,17 +89,15 @@ def examine(
         urdf: As for ``check``.
     """
     reading = Reading(Resolver(paths), xacro_args=dict(xacro_args or {}))
-    worlds: list[World] = []
 
-    def judge() -> list[Problem]:
+    def judge() -> tuple[list[Problem], World | None]:
         file = find_file(path, reading)
         if is_semantic(file):
-            return _check_semantics(file, urdf, reading)
-        worlds.append(read_path(file, reading))
-        return [_problem_of(finding) for finding in lint(worlds[0])]
+            return _check_semantics(file, urdf, reading), None
+        return _linted(read_path(file, reading))
 
     name = os.fspath(path) if isinstance(path, str | os.PathLike) else None
-    return _found(reading, judge, name), worlds[0] if worlds else None
+    return _found(reading, judge, name)
 
 
 def check_string(text: str, *, name: str = "string") -> list[Problem]:
@@ -120,21 +118,28 @@ def examine_string(text: str, *, name: str = "string") -> tuple[list[Problem], W
         name: Stands for the file in the problems.
     """
     reading = Reading(Resolver())
-    worlds: list[World] = []
-
-    def judge() -> list[Problem]:
-        worlds.append(read_text(text, name, reading))
-        return [_problem_of(finding) for finding in lint(worlds[0])]
-
-    return _found(reading, judge, name), worlds[0] if worlds else None
+    return _found(reading, lambda: _linted(read_text(text, name, reading)), name)
 
 
-def _found(reading: Reading, judge: Callable[[], list[Problem]], name: str | None) -> list[Problem]:
-    """Return all problems of one load; ``name`` stands for the file of an error without one."""
+def _linted(world: World) -> tuple[list[Problem], World]:
+    return [_problem_of(finding) for finding in lint(world)], world
+
+
+def _found(
+    reading: Reading, judge: Callable[[], tuple[list[Problem], World | None]], name: str | None
+) -> tuple[list[Problem], World | None]:
+    """Return all problems of one load, and its world, if it holds one.
+
+    Args:
+        reading: The load.
+        judge: Reads; returns problems of what was read, and the world.
+        name: Stands for the file of an error without one.
+    """
     problems: list[Problem] = []
     judged: list[Problem] = []
+    world: World | None = None
     try:
-        judged = judge()
+        judged, world = judge()
     except NoLinksError as error:
         problem = Problem.of(error, name)
         included = problem.file is not None and Path(problem.file).suffix == ".xacro"
@@ -150,7 +155,7 @@ def _found(reading: Reading, judge: Callable[[], list[Problem]], name: str | Non
     ]
     problems += [_noted(note) for note in reading.notes if note.severity == "warning"]
     reported = {each.rule for each in problems}  # by the reader, who sees each element
-    return problems + [each for each in judged if each.rule not in reported]
+    return problems + [each for each in judged if each.rule not in reported], world
 
 
 def is_semantic(file: Path) -> bool:
