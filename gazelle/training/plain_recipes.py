@@ -47,8 +47,7 @@ OFF_POLICY: dict[str, Recipe] = {
         net_arch=(128, 128),
         activation="relu",
         learning_rate=5e-4,
-        learning_rate_decay=False,
-        settings=OffPolicySettings(gradient_steps=4, tau=1.0),
+        settings=OffPolicySettings(gradient_steps=4, tau=1.0, n_steps=3, double_q=True),
     ),
     **{algo: _continuous(algo) for algo in ("sac", "td3", "ddpg")},
 }
@@ -60,15 +59,16 @@ _CHEAP_COLLISIONS = GoalReward(goal=2.0, collision=1.0)
 
 _OF_TASKS: dict[tuple[str, str], dict[str, Any]] = {
     ("TurtleBot3Stage1", "td3"): {"steps": 82_000},
-    ("TurtleBot3Stage4", "dqn"): {"steps": 600_000},
+    ("TurtleBot3Stage4", "dqn"): {"steps": 1_000_000},
     ("TurtleBot3Stage4", "tqc"): {"goal_reward": _CHEAP_COLLISIONS},
     ("TurtleBot3Stage4", "td3"): {"goal_reward": _CHEAP_COLLISIONS, "steps": 256_000},
     # A step is paid for centimetres of progress, so the entropy must weigh as little.
     ("TurtleBot3Stage4", "sac"): {
         "goal_reward": _CHEAP_COLLISIONS,
-        "steps": 128_000,
+        "steps": 192_000,
+        "learning_rate_decay": True,
         "settings": OffPolicySettings(
-            gradient_steps=4, policy_delay=2, initial_entropy_weight=0.03
+            gradient_steps=4, policy_delay=2, initial_entropy_weight=0.03, n_steps=3
         ),
     },
     # One critic believes too much of what it has not seen: no more than rewards can add up to.

@@ -78,6 +78,8 @@ class OffPolicySettings:
     """Control steps of all copies between two updates."""
     gradient_steps: int = 1
     """Minibatches in an update."""
+    n_steps: int = 1
+    """Control steps whose rewards are added up before the value of what follows."""
     tau: float = 0.005
     """Share of the new weights that goes into the target network at each update."""
     action_noise: float = 0.1
@@ -109,6 +111,9 @@ class OffPolicySettings:
     """Share of random actions that stays (DQN)."""
     target_update_interval: int = 2_000
     """Transitions between two copies to DQN's target network (with tau 1)."""
+    double_q: bool = False
+    """True if the network that learns chooses the action that the target network values (DQN), so
+    that what is valued too high is not chosen for it."""
 
 
 @dataclass(frozen=True, kw_only=True)

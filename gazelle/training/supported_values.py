@@ -42,7 +42,13 @@ PARTIAL_SUPPORT: dict[str, tuple[str, ...]] = {
     "policy_delay": ("sac", *_NOISY),
     "initial_entropy_weight": ("sac",),
     **dict.fromkeys(
-        ("exploration_fraction", "exploration_final", "target_update_interval"), _EXPLORING
+        (
+            "exploration_fraction",
+            "exploration_final",
+            "target_update_interval",
+            "double_q",
+        ),
+        _EXPLORING,
     ),
 }
 """Of a `Recipe` or of `OffPolicySettings`, values that not all its algorithms support."""

@@ -79,7 +79,7 @@ class Walk(gym.vector.VectorEnv):
         return (desired - achieved)[:, 0]
 
 
-def filled(mode, steps, copies=3, share=0.8, rows=40, seed=0, redraw=0.0):
+def filled(mode, steps, copies=3, share=0.8, rows=40, seed=0, redraw=0.0, **several):
     adapter = VectorEnvAdapter(Walk(copies, mode, seed))
     memory = HindsightReplayBuffer(
         rows * copies,
@@ -91,6 +91,7 @@ def filled(mode, steps, copies=3, share=0.8, rows=40, seed=0, redraw=0.0):
         share=share,
         redraw=redraw,
         reward_scale=2.0,
+        **several,
     )
     obs = adapter.reset()
     for _ in range(steps):
@@ -128,6 +129,22 @@ def test_goals_come_from_the_future_of_the_same_episode(mode, steps):
     for start, end in zip(reached[virtual], goal[virtual], strict=True):
         slot = int(start // 10_000)
         assert np.isin(np.arange(start, end + 1), counts[:, slot]).all()
+
+
+def test_rewards_of_several_steps_are_those_of_the_other_goal():
+    memory = filled("SameStep", 95, n_steps=3, gamma=0.5)
+    place = memory._goals
+    batch = memory.sample(500)
+    before = batch.observations.numpy()[:, place.achieved][:, 0]
+    steps = batch.next_observations.numpy()[:, place.achieved][:, 0] - before
+    assert set(steps) == {1.0, 2.0, 3.0}
+    np.testing.assert_array_equal(batch.discounts.numpy()[:, 0], 0.5**steps)
+    goal = batch.observations.numpy()[:, place.desired][:, 0]
+    after = np.arange(3)
+    weights = 0.5**after * (after < steps[:, None])
+    virtual = np.arange(500) < 400
+    wanted = np.where(virtual[:, None], 2.0 * (goal - before - 1.0)[:, None] - 2.0 * after, WALK)
+    np.testing.assert_allclose(batch.rewards.numpy()[:, 0], (weights * wanted).sum(axis=1))
 
 
 def test_every_later_step_is_as_likely():

@@ -116,9 +116,10 @@ def replay_options(recipe: Recipe, env: VectorEnvAdapter) -> dict[str, Any]:
         TaskError: The recipe pays in another way than the task, which does not define what that had
             been worth with other goals.
     """
-    goals = env.goal_replay
+    goals, steps = env.goal_replay, getattr(recipe.settings, "n_steps", 1)
+    several = {"n_steps": steps, "gamma": recipe.gamma}
     if goals is None or not recipe.hindsight:
-        return {"replay_buffer_class": MaskedReplayBuffer}
+        return {"replay_buffer_class": MaskedReplayBuffer, "replay_buffer_kwargs": several}
     if recipe.goal_reward is not None:
         raise TaskError(
             "a goal_reward cannot be worked out for goals that were reached later",
@@ -131,5 +132,6 @@ def replay_options(recipe: Recipe, env: VectorEnvAdapter) -> dict[str, Any]:
             "share": recipe.hindsight,
             "redraw": recipe.hindsight_redraw,
             "reward_scale": recipe.reward_scale,
+            **several,
         },
     }

@@ -104,14 +104,24 @@ class HindsightReplayBuffer(MaskedReplayBuffer):
         if self._redraw:
             self._draw_again(rows[:count], slots[:count], later)
         parts = super()._parts(rows, slots)
-        achieved, desired = self._goals.achieved, self._goals.desired
+        desired = self._goals.desired
         goals = self._achieved(later, slots[:count])
         parts["observations"][:count, desired] = goals
         parts["next_observations"][:count, desired] = goals
-        reached = parts["next_observations"][:count, achieved]
-        rewards = self._goals.rewards(reached, goals) * np.float32(self._reward_scale)
-        parts["rewards"][:count, 0] = rewards
+        parts["rewards"][:count] = self._summed(
+            rows[:count], slots[:count], lambda at: self._rewards(at, slots[:count], goals)
+        )[1]["rewards"]
         return parts
+
+    def _rewards(
+        self,
+        rows: npt.NDArray[np.intp],
+        slots: npt.NDArray[np.intp],
+        goals: npt.NDArray[Any],
+    ) -> npt.NDArray[np.float32]:
+        """Return the rewards of steps with other goals, shape (n,)."""
+        rewards = self._goals.rewards(self._achieved(rows, slots), goals)
+        return np.asarray(rewards * np.float32(self._reward_scale), np.float32)
 
     def _draw_again(
         self,

@@ -2,19 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+import torch
 from stable_baselines3.common.buffers import ReplayBuffer
 from stable_baselines3.common.type_aliases import ReplayBufferSamples
 
 
 class MaskedReplayBuffer(ReplayBuffer):  # type: ignore[misc]  # untyped base
-    """Stable-Baselines3's replay buffer, drawing from the valid transitions only."""
+    """Stable-Baselines3's replay buffer, drawing from the valid transitions only.
 
-    def __init__(self, *args: Any, **kwargs: Any) -> None:
+    Args:
+        args: As Stable-Baselines3's ``ReplayBuffer`` takes them.
+        n_steps: Control steps of a transition; fewer where its episode ends, or was played no further.
+        gamma: Discount of one of them, if there are several.
+        kwargs: As there.
+    """
+
+    def __init__(self, *args: Any, n_steps: int = 1, gamma: float = 1.0, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
+        self.n_steps, self.gamma = n_steps, gamma
         self.valid = np.ones((self.buffer_size, self.n_envs), dtype=np.bool_)
 
     def add(
@@ -94,11 +104,49 @@ class MaskedReplayBuffer(ReplayBuffer):  # type: ignore[misc]  # untyped base
         self, rows: npt.NDArray[np.intp], slots: npt.NDArray[np.intp]
     ) -> dict[str, npt.NDArray[Any]]:
         """Return the transitions at the given rows and slots, arrays of their own."""
-        cut_off = self.timeouts[rows, slots]
+        last, following = self._summed(rows, slots, lambda at: self.rewards[at, slots])
+        cut_off = self.timeouts[last, slots]
         return {
             "observations": self.observations[rows, slots],
             "actions": self.actions[rows, slots],
-            "next_observations": self.next_observations[rows, slots],
-            "dones": (self.dones[rows, slots] * (1.0 - cut_off))[:, None],
-            "rewards": self.rewards[rows, slots][:, None],
+            "next_observations": self.next_observations[last, slots],
+            "dones": (self.dones[last, slots] * (1.0 - cut_off))[:, None],
+            **following,
         }
+
+    def _summed(
+        self,
+        rows: npt.NDArray[np.intp],
+        slots: npt.NDArray[np.intp],
+        rewards_at: Callable[[npt.NDArray[np.intp]], npt.NDArray[np.float32]],
+    ) -> tuple[npt.NDArray[np.intp], dict[str, npt.NDArray[np.float32]]]:
+        """Return the last rows of transitions, with their rewards and, of several steps, discounts.
+
+        Args:
+            rows: Their first rows, shape (n,).
+            slots: Their copies.
+            rewards_at: Returns the rewards of the steps at given rows, shape (n,).
+        """
+        last, rewards = rows, rewards_at(rows)
+        discounts = np.full(len(rows), self.gamma, np.float32)
+        for _ in range(self.n_steps - 1):
+            after = (last + 1) % self.buffer_size
+            goes_on = (self.dones[last, slots] == 0.0) & (after != self.pos)
+            last = np.where(goes_on, after, last)
+            rewards = rewards + goes_on * discounts * rewards_at(last)
+            discounts = np.where(goes_on, discounts * np.float32(self.gamma), discounts)
+        several = {"discounts": discounts[:, None]} if self.n_steps > 1 else {}
+        return last, {"rewards": rewards[:, None], **several}
+
+
+def targets(batch: Any, values: torch.Tensor, gamma: float) -> torch.Tensor:
+    """Return what a transition is worth, shape (n, 1), by the values of what follows it.
+
+    Args:
+        batch: A sample of a memory.
+        values: Shape (n, 1).
+        gamma: Discount of one control step.
+    """
+    discounts = gamma if batch.discounts is None else batch.discounts
+    worth: torch.Tensor = batch.rewards + (1.0 - batch.dones) * discounts * values
+    return worth

@@ -18,6 +18,7 @@ from torch import nn
 from gazelle.training.learners.actor_critic import CriticUpdate, follow, frozen
 from gazelle.training.learners.arguments import Learner, off_policy_settings, replay_arguments
 from gazelle.training.learners.ppo_update import HALF_LOG_2_PI
+from gazelle.training.learners.replay import targets
 from gazelle.training.recipes import Recipe
 from gazelle.training.vecenv import VectorEnvAdapter
 
@@ -58,9 +59,7 @@ class FastSAC(CriticUpdate, SAC):  # type: ignore[misc]  # untyped base
         following = self.actor.features_extractor(batch.next_observations)
         actions, logs = self._drawn(following)
         least = self._least_value(self.critic_target, following, actions)
-        value = least - self.log_ent_coef.exp() * logs
-        target: torch.Tensor = batch.rewards + (1.0 - batch.dones) * self.gamma * value
-        return target
+        return targets(batch, least - self.log_ent_coef.exp() * logs, self.gamma)
 
     def _improve_actor(
         self, features: torch.Tensor, actions: torch.Tensor, logs: torch.Tensor

@@ -24,6 +24,7 @@ from gazelle.training.learners.arguments import (
     noisy_arguments,
     off_policy_settings,
 )
+from gazelle.training.learners.replay import targets
 from gazelle.training.recipes import Recipe
 from gazelle.training.vecenv import VectorEnvAdapter
 
@@ -80,12 +81,12 @@ class DeterministicLearner(CriticUpdate, TD3):  # type: ignore[misc]  # untyped 
             noise = noise.clamp(-self.target_noise_clip, self.target_noise_clip)
             actions = (actions + noise).clamp(-1.0, 1.0)
         value = self._least_value(self.critic_target, following, actions)
-        target: torch.Tensor = batch.rewards + (1.0 - batch.dones) * self.gamma * value
+        target = targets(batch, value, self.gamma)
         if not self.ways.bound_values or self.gamma >= 1.0:
             return target
         self.least_reward = min(self.least_reward, batch.rewards.min().item())
         self.greatest_reward = max(self.greatest_reward, batch.rewards.max().item())
-        horizon = 1.0 / (1.0 - self.gamma)
+        horizon = 1.0 / (1.0 - self.gamma**self.ways.n_steps)
         return target.clamp(self.least_reward * horizon, self.greatest_reward * horizon)
 
     def _improve_actor(self, features: torch.Tensor, shown: _Imitated | None) -> torch.Tensor:
