@@ -214,12 +214,8 @@ def resolve_policy(
             load_all(() if modules else run.config.imports)
             task = run.config.task
         trained = run.config.options
-        known = trained | evaluation_options(task, trained)
-        return (
-            load_actor(run.policy_file(best=best)),
-            task,
-            known | dict(run.config.recipe.evaluation_options) | chosen,
-        )
+        known = run.config.recipe.evaluated(trained | evaluation_options(task, trained))
+        return load_actor(run.policy_file(best=best)), task, known | chosen
     if task is None:
         raise TaskError("a policy file does not name its task", hint="give the task as well")
     options = evaluation_options(task, {}) | chosen

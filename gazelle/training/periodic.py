@@ -52,7 +52,7 @@ class PeriodicEvaluation:
             episodes=config.eval_episodes,
             seed=SEED,
             task=config.task,
-            **options | dict(config.recipe.evaluation_options),
+            **config.recipe.evaluated(options),
         )
         self.evaluated_at = steps
         merit = (0.0 if found.success is None else found.success.value, found.mean_return)

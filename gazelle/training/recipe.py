@@ -214,6 +214,19 @@ class Recipe:
         check_supported(self.algo, self)
         _check_settings(self.algo, self.settings)
 
+    def evaluated(self, options: Mapping[str, Any]) -> dict[str, Any]:
+        """Return options of the environment for evaluations: what a user chose for the training stays.
+
+        Args:
+            options: Those of the training.
+        """
+        of_recipe = {
+            name: value
+            for name, value in self.evaluation_options.items()
+            if options.get(name) == self.training_options.get(name)
+        }
+        return {**options, **of_recipe}
+
     @property
     def rollout_steps(self) -> int | None:
         """Control steps of each copy between two updates; None if the library decides."""

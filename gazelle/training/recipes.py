@@ -141,10 +141,11 @@ RECIPES: dict[str, Recipe] = {
     # A hall full of AGVs: what bumps is two that meet, so that is dear, and far goals draw gently. An
     # AGV of 0.5 m is never between two of 48 rays within 3.8 m, but was between two of 24 at 1.9 m.
     # With a horizon of 10 s (a discount of 0.98) robots in crowds wait for each other.
-    # Collisions are rare, so an update needs many transitions to learn of them.
+    # Collisions are rare, so an update needs many transitions to learn of them. Crowds of 90 teach
+    # more of them than the 72 that are evaluated.
     "AGVFleet": Recipe(
-        steps=3_200_000,
-        num_envs=1152,
+        steps=6_400_000,
+        num_envs=1170,
         net_arch=(128, 128),
         activation="relu",
         learning_rate=2.5e-3,
@@ -153,11 +154,11 @@ RECIPES: dict[str, Recipe] = {
         features=True,
         training_options={
             "engine": "planar",
-            "agents": 72,
+            "agents": 90,
             "lidar_samples": 48,
             "max_episode_steps": 1000,
         },
-        evaluation_options={"max_episode_steps": 500},
+        evaluation_options={"agents": 72, "max_episode_steps": 500},
         settings=PPOSettings(
             n_steps=16,
             batch_size=3072,

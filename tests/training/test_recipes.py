@@ -112,6 +112,16 @@ def test_a_contract_has_the_times_of_an_evaluation_and_not_of_a_training(task, p
     assert contract.time_limit == pytest.approx(limit)
 
 
+def test_evaluations_keep_what_a_user_chose_for_the_training():
+    recipe = RECIPES["AGVFleet"]
+    trained = dict(recipe.training_options)
+    assert recipe.evaluated(trained) == trained | {"agents": 72, "max_episode_steps": 500}
+    assert recipe.evaluated(trained | {"agents": 8}) == (
+        trained | {"agents": 8, "max_episode_steps": 500}
+    )
+    assert recipe.evaluated(trained | {"lidar_samples": 24})["lidar_samples"] == 24
+
+
 @pytest.mark.slow
 def test_the_fleets_recipe_learns_what_the_defaults_do_not(tmp_path):
     """72 of them in a hall; of three seeds the worst had 0.917, 0.86 at the low end of its interval."""
