@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -78,15 +79,20 @@ def multiply(a: Floats, b: Floats) -> Floats:
 
 def _multiply_one(p: Floats, q: Floats) -> Floats:
     """Multiply a single pair, to the bit, without the overhead of arrays."""
-    x, y, z, w = p.ravel().tolist()
-    a, b, c, d = q.ravel().tolist()
-    product = (
+    product = product_of(p.ravel().tolist(), q.ravel().tolist())
+    return np.array(product).reshape((1,) * (max(p.ndim, q.ndim) - 1) + (4,))
+
+
+def product_of(p: Sequence[float], q: Sequence[float]) -> tuple[float, float, float, float]:
+    """Return what ``multiply`` returns for one pair, to the bit."""
+    x, y, z, w = p
+    a, b, c, d = q
+    return (
         w * a + d * x + (y * c - z * b),
         w * b + d * y + (z * a - x * c),
         w * c + d * z + (x * b - y * a),
         w * d - (x * a + y * b + z * c),
     )
-    return np.array(product).reshape((1,) * (max(p.ndim, q.ndim) - 1) + (4,))
 
 
 def unit(q: Floats) -> Floats:

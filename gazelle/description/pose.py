@@ -81,16 +81,19 @@ class Pose:
 
     @classmethod
     def _normalized(cls, position: Sequence[float], quaternion: Sequence[float]) -> Pose:
-        norm = math.sqrt(sum(q * q for q in quaternion))
+        px, py, pz = position
+        x, y, z, w = quaternion
+        norm = math.sqrt(x * x + y * y + z * z + w * w)
         if norm in (0.0, math.inf):  # the squares of very small or large numbers
             largest = max(map(abs, quaternion))
             if 0.0 < largest < math.inf:
                 return cls._normalized(position, [q / largest for q in quaternion])
-        pose = cls(*position)
+        turned = _IDENTITY
         if norm != 0.0:
             scale = 1.0 if abs(norm - 1.0) < _ROUNDING else norm
-            x, y, z, w = (float(q) / scale for q in quaternion)
-            pose._quaternion = (x, y, z, w)  # its own class
+            turned = float(x) / scale, float(y) / scale, float(z) / scale, float(w) / scale
+        pose, place = cls.__new__(cls), (float(px), float(py), float(pz))
+        pose._position, pose._quaternion = place, turned  # noqa: SLF001  its own class
         return pose
 
     @classmethod

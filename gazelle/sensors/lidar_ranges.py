@@ -117,6 +117,15 @@ def measure(
             measure_row(law, noise, m, ranges[m], ranges.shape[1], offset, measured[m])
 
 
+def infinite_from(reach: float, ranges: Floats) -> Floats:
+    """Return new ranges [m], infinite where they are not below a reach [m]."""
+    found = np.array(ranges, np.float64, order="C")
+    each = found.reshape(-1)
+    for k in range(each.shape[0]):
+        each[k] = each[k] if each[k] < reach else INF
+    return found
+
+
 @cython.cclass
 class LidarSystem(System):
     """Lidars with the same beams and the same law, a row each.

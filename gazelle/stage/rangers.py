@@ -11,6 +11,7 @@ from gazelle.array_types import Floats, Worlds
 from gazelle.engines.planar import Fan, Fleet, Mount
 from gazelle.errors import SimulationError
 from gazelle.native.system import System
+from gazelle.sensors.lidar_ranges import infinite_from
 from gazelle.stage.scans import RangerScanner, StageRangeNoise
 from gazelle.streams import Stream
 
@@ -75,8 +76,7 @@ class Rangers:
         Raises:
             SimulationError: There is no such scanner.
         """
-        seen = self.scan(scanner)[:, places]
-        return np.where(seen < self.fans[scanner].reach, seen, np.inf)
+        return infinite_from(self.fans[scanner].reach, self.scan(scanner)[:, places])
 
     def system(self, scanner: int) -> tuple[System, Floats] | None:
         """Return the native scan system and its output, a row a sensor; None if Python takes part.

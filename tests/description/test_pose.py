@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from gazelle.description import Pose
 from gazelle.description.pose import quaternion_from_matrix
+from gazelle.errors import FormatError
 
 lengths = st.floats(-100, 100, allow_nan=False)
 angles = st.floats(-math.pi, math.pi, allow_nan=False)
@@ -90,6 +91,12 @@ def test_quaternions_are_normalised(pose, factor):
 
 def test_a_quaternion_of_length_zero_is_the_identity():
     assert Pose.from_quaternion((1, 2, 3), (0, 0, 0, 0)) == Pose(1, 2, 3)
+
+
+@pytest.mark.parametrize("position", [(1.0, 2.0), (1.0, 2.0, 3.0, 0.5)])
+def test_a_position_has_three_numbers(position):
+    with pytest.raises(FormatError, match="three numbers and a quaternion of four"):
+        Pose.from_quaternion(position, (0, 0, 0, 1))
 
 
 @given(poses)

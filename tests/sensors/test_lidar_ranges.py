@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gazelle.sensors.lidar_ranges import LidarNoise, RangeLaw, measure
+from gazelle.sensors.lidar_ranges import LidarNoise, RangeLaw, infinite_from, measure
 from gazelle.streams import Stream
 
 TRUE = st.one_of(st.floats(0.0, 9.0), st.just(np.inf), st.just(-np.inf))
@@ -53,3 +53,15 @@ def test_normal_numbers_are_those_of_box_and_muller(size, worlds):
     wanted = np.hstack((radius * np.cos(angle), radius * np.sin(angle)))[:, :size]
     np.testing.assert_allclose(drawn, wanted, atol=1e-12)
     np.testing.assert_array_equal(stream.counters, same.counters)
+
+
+@pytest.mark.parametrize("places", [1, slice(1, 3), [2, 0], slice(None)])
+def test_ranges_that_reach_as_far_as_the_sensor_are_infinite(places):
+    seen = np.random.default_rng(0).uniform(0.0, 6.0, (2, 3, 7)).clip(max=5.0)
+    seen[0, :, 0], seen[1, :, 1], seen[1, :, 2] = np.nan, -np.inf, np.nextafter(5.0, 0.0)
+    ranges = seen[:, places]
+    before, found = ranges.copy(), infinite_from(5.0, ranges)
+    assert found.tobytes() == np.where(ranges < 5.0, ranges, np.inf).tobytes()
+    assert found.shape == ranges.shape
+    found[:] = 0.0
+    np.testing.assert_array_equal(ranges, before)

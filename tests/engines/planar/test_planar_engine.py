@@ -280,3 +280,20 @@ def test_refused_places_change_nothing(name):
             call()
         assert (engine.snapshot() == before).all()
     engine.close()
+
+
+@pytest.mark.parametrize("tilt", [0.0, 0.3])
+def test_the_pose_in_one_world_is_to_the_bit_that_among_many(tilt):
+    box = scenes.box(pose=Pose(0.1, 0.2, 0.1, roll=tilt, yaw=0.7))
+    engine, single = (make_engine("planar", scenes.world(box), n) for n in (5, 1))
+    row, alone = engine.models["box"], single.models["box"]
+    yaw = np.array([-3.1, -0.4, 0.0, 1e-9, 2.9])
+    row.set_placement(np.column_stack((yaw, 2 * yaw, yaw)), from_yaw(yaw))
+    many = row.placement()
+    for world in range(5):
+        one = row.placement(np.array([world]))
+        assert one.position.tobytes() == many.position[world].tobytes()
+        assert one.quaternion.tobytes() == many.quaternion[world].tobytes()
+        alone.set_placement(many.position[world], many.quaternion[world])
+        assert alone.placement().quaternion.shape == (1, 4)
+        np.testing.assert_allclose(alone.placement().quaternion[0], many.quaternion[world])

@@ -12,6 +12,7 @@ from gazelle.array_types import Bools, Floats, Indices, Worlds
 from gazelle.description import Pose
 from gazelle.engines.motion import Placement
 from gazelle.engines.planar import columns as c
+from gazelle.engines.planar.body_conversion import ConvertedModel
 from gazelle.engines.planar.layout import PlanarLayout
 from gazelle.engines.planar.paths import PathFollower
 from gazelle.engines.planar.twist_commands import TwistCommands
@@ -20,7 +21,7 @@ from gazelle.engines.table import Lookup
 from gazelle.errors import EngineError
 from gazelle.native.paths import ModelPath
 from gazelle.native.system import System
-from gazelle.rotations import conjugate, from_yaw, multiply, yaw_of
+from gazelle.rotations import conjugate, from_yaw, multiply, product_of, yaw_of
 
 _SAME = 1e-12  # how far components of quaternions may be apart to be taken as equal
 
@@ -36,20 +37,32 @@ class PlanarModelRow:
 
     def __init__(self, run: PlanarState, name: str, make_kinematic: Callable[[str], None]) -> None:
         self._run, self._name, self._make_kinematic = run, name, make_kinematic
+        self._place = Lookup[PlanarLayout, tuple[ConvertedModel, int | None]](
+            lambda layout: (run.model(name), layout.bodies.get(name))
+        )
 
     def placement(self, worlds: Worlds | None = None) -> Placement:
         """Return the pose of the model's frame."""
-        each = self._run.model(self._name)
-        body = self._run.layout.bodies.get(self._name)
+        each, body = self._place.within(self._run.layout)
+        count = self._run.fleet.nworld if worlds is None else len(worlds)
         if body is None:
-            count = self._run.fleet.nworld if worlds is None else len(worlds)
             pose = each.model.pose
             return Placement(
                 np.tile(pose.position, (count, 1)), np.tile(pose.quaternion, (count, 1))
             )
+        if count == 1:
+            return self._placement_of_one(each, body, 0 if worlds is None else int(worlds[0]))
         rows = self._run.fleet.rows[self._run.rows(body, worlds)]
         turned = multiply(from_yaw(rows[:, c.YAW]), np.asarray(each.tilt.quaternion)[None])
         return Placement(rows[:, [c.X, c.Y, c.Z]], turned)
+
+    def _placement_of_one(self, each: ConvertedModel, body: int, world: int) -> Placement:
+        """Return the pose in one world, to the bit, without the overhead of arrays."""
+        row = self._run.fleet.rows[world * self._run.fleet.nbody + body].tolist()
+        half = row[c.YAW] / 2.0
+        turn = 0.0, 0.0, float(np.sin(half)), float(np.cos(half))
+        turned = product_of(turn, each.tilt.quaternion)
+        return Placement(np.array(((row[c.X], row[c.Y], row[c.Z]),)), np.array((turned,)))
 
     def planar_pose(self, worlds: Worlds | None = None) -> Floats:
         """Return the pose seen from above: x, y [m] and heading [rad], shape (n, 3)."""
