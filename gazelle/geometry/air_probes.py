@@ -14,6 +14,7 @@ _CELLS = 24
 """Cells along the longest side of the grid that places are sorted into."""
 
 
+@cython.final
 @cython.cclass
 class AirProbes:
     """Places that no hull may hold, sorted into the cells of a grid.

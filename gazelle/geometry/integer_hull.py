@@ -19,6 +19,7 @@ from gazelle.array_types import Floats, Indices, Ints32
 STEPS = cython.declare(cython.double, 2.0**19 - 1.0)
 
 
+@cython.final
 @cython.cclass
 class HullBuilder:
     """Room to make hulls in, one after the other.

@@ -18,6 +18,7 @@ from cython.cimports.gazelle.geometry.pair_queue import PairQueue
 from gazelle.array_types import Floats, Indices
 
 
+@cython.final
 @cython.cclass
 class PieceMerger:
     """Pieces, each a convex hull of its points.

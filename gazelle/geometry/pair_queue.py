@@ -8,6 +8,7 @@ import cython
 import numpy as np
 
 
+@cython.final
 @cython.cclass
 class PairQueue:
     """A binary heap of pairs that go by their rows.

@@ -14,7 +14,7 @@ from gazelle.geometry.hull import Solid
 Stored = tuple[list[Solid], bool, float, bool]
 """Pieces, whether the one is the whole mesh, how far they are off it [m], whether it is closed."""
 
-VERSION = 10
+VERSION = 11
 """Of the rules that cut meshes up: files of another are not used."""
 
 

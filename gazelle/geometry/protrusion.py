@@ -11,8 +11,10 @@ from gazelle.geometry.surface import WeldedSurface
 
 _PLACES = 20_000
 """Places on the pieces, about."""
+_TOGETHER = 1000
+"""Places that are measured at once; the largest distance is known to later ones."""
 _WAYS = spread_directions(24)
-"""Directions in which the surface is looked for, besides that into the piece."""
+"""Directions in which backs of a body are looked for, besides that into the piece."""
 _FAR = 0.7
 """Distance of places beside which there are more in the end, as a share of the largest."""
 _MARGIN = 1.05
@@ -29,23 +31,39 @@ def protrusion(surface: WeldedSurface, solids: list[Solid], closed: Bools) -> fl
         solids: Convex pieces.
         closed: Whether each triangle belongs to a closed body, shape (m,).
     """
-    hulls = _all_faces(solids)
-    gaps, faces = _gaps(surface, hulls, closed)
-    far = np.unique(faces[gaps > _FAR * gaps.max(initial=0.0)])
-    if len(far):  # more places where it is far: there it is farthest between two places
-        gaps = np.append(gaps, _gaps(surface, hulls.part(far), closed)[0])
-    return _MARGIN * float(gaps.max(initial=0.0))
+    hulls, is_body = _all_faces(solids), bool(closed.all())
+    farthest, faces = _farthest(surface, hulls, is_body)
+    if len(faces):  # more places where it is far: there it is farthest between two places
+        farthest = max(farthest, _farthest(surface, hulls.part(faces), is_body)[0])
+    return _MARGIN * farthest
 
 
-def _gaps(surface: WeldedSurface, hulls: WeldedSurface, closed: Bools) -> tuple[Floats, Indices]:
-    """Return the distance of places on hulls from a surface [m], 0 inside, and their faces."""
+def _farthest(surface: WeldedSurface, hulls: WeldedSurface, is_body: bool) -> tuple[float, Indices]:  # noqa: FBT001
+    """Return the largest distance of places on hulls from a surface [m], and the faces with nearly that.
+
+    Places within a body have none.
+    """
     places, faces = spread(hulls, float(np.sqrt(hulls.areas.sum() / _PLACES)))
-    places = places + _RISE * surface.size * hulls.normals[faces]
-    nearest, inside = surface.rays.first_hits(places, -hulls.normals[faces])
+    farthest, gaps = 0.0, np.zeros(len(places))
+    for start in range(0, len(places), _TOGETHER):
+        rows = np.arange(start, min(start + _TOGETHER, len(places)))
+        gaps[rows] = surface.distances.of(places[rows], _FAR * farthest)
+        rows = rows[gaps[rows] > _FAR * farthest]
+        if is_body:
+            raised = places[rows] + _RISE * surface.size * hulls.normals[faces[rows]]
+            gaps[rows[_within(surface, raised, -hulls.normals[faces[rows]])]] = 0.0
+        farthest = max(farthest, float(gaps[rows].max(initial=0.0)))
+    return farthest, np.unique(faces[gaps > _FAR * farthest])
+
+
+def _within(surface: WeldedSurface, places: Floats, ways: Floats) -> Bools:
+    """Return whether places are in a body: along their ways or others they first meet a back."""
+    inside = surface.rays.first_hits(places, ways)[1]
     for way in _WAYS:
-        distance, within = surface.rays.first_hits(places, np.broadcast_to(way, places.shape))
-        nearest, inside = np.minimum(nearest, distance), inside | within
-    return np.where(inside & closed.all(), 0.0, nearest), faces
+        rows = np.flatnonzero(~inside)
+        ahead = np.broadcast_to(way, (len(rows), 3))
+        inside[rows] = surface.rays.first_hits(places[rows], ahead)[1]
+    return inside
 
 
 def _all_faces(solids: list[Solid]) -> WeldedSurface:

@@ -6,8 +6,9 @@ from __future__ import annotations
 
 import cython
 import numpy as np
+from numpy.typing import NDArray
 
-from gazelle.array_types import Bools, Floats, Indices, Ints32
+from gazelle.array_types import Bools, Floats, Indices
 from gazelle.native.box_trees import BoxTree
 
 _START = 1e-5
@@ -27,6 +28,7 @@ _FAR = cython.declare(cython.double, 1e300)
 _ENDLESS = cython.declare(cython.double, np.inf)
 
 
+@cython.final
 @cython.cclass
 class TriangleRays:
     """Rays against triangles, which are met from both sides.
@@ -43,8 +45,12 @@ class TriangleRays:
         half = (high - low) / 2.0 + _MARGIN * size
         tree = BoxTree(np.concatenate([(low + high) / 2.0, half], axis=1))
         middle, half = tree.bounds[:, :3], tree.bounds[:, 3:]
-        self.bounds = np.concatenate([middle - half, middle + half], axis=1)
-        self.children, self.leaf = tree.children, tree.leaf
+        below = tree.children
+        # Of both nodes below each, by axis: the lower sides, then the upper ones.
+        sides = np.stack([(middle - half)[below], (middle + half)[below]], axis=1)
+        self.bounds = np.ascontiguousarray(np.moveaxis(sides, 3, 1).reshape(-1, 3, 4))
+        self.children = np.where(tree.leaf[below] >= 0, ~tree.leaf[below], below)
+        self.root = ~0 if len(faces) == 1 else 0
         edges = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
         self.triangles = np.concatenate([corners[:, 0], *edges], axis=1)
         self.size, self.tie = size, _TIE * size
@@ -64,44 +70,42 @@ class TriangleRays:
             both of shape (n,).
         """
         start = origins + self.size * (_START * directions + _ASIDE)
-        distance, face = np.full(len(start), np.inf), np.full(len(start), -1, np.int32)
+        distance, within = np.full(len(start), np.inf), np.zeros(len(start), np.uint8)
         origin = cython.declare(cython.double[:, ::1], np.ascontiguousarray(start))
         way = cython.declare(cython.double[:, ::1], np.array(directions, order="C"))
         reach = cython.declare(cython.double[::1], distance)
-        hit = cython.declare(cython.int[::1], face)
+        behind = cython.declare(cython.uchar[::1], within)
         with cython.nogil:
-            self.cast(origin, way, reach, hit)
-        met = face >= 0
-        edges = np.asarray(self.triangles)[face, 3:]
-        outwards = np.einsum("ij,ij->i", np.cross(edges[:, :3], edges[:, 3:]), directions)
-        return distance + _START * self.size, np.asarray(met & (outwards > 0.0))
+            self.cast(origin, way, reach, behind)
+        return distance + _START * self.size, within.astype(np.bool_)
 
-    def cast(self, origins: Floats, directions: Floats, distance: Floats, face: Ints32) -> None:
-        """Write the distance of the first triangle along each ray, and its row."""
+    def cast(
+        self, origins: Floats, directions: Floats, distance: Floats, within: NDArray[np.uint8]
+    ) -> None:
+        """Write the distance of the first triangle along each ray, and whether it looks away."""
         ray = self.ray
         for n in range(origins.shape[0]):
             for axis in range(3):
                 way = directions[n, axis]
                 ray[axis], ray[axis + 3] = origins[n, axis], way
                 ray[axis + 6] = 1.0 / way if way > 1e-300 or way < -1e-300 else _STEEP
-            face[n] = self.first()
-            if face[n] >= 0:
-                distance[n] = self.nearest
+            if self.find_first():
+                distance[n], within[n] = self.nearest, self.leaves
 
-    def first(self) -> int:
-        """Return the first triangle that the ray meets; -1 if there is none.
+    def find_first(self) -> bool:
+        """Find the first triangle that the ray meets; False if there is none.
 
-        Its distance is ``nearest``. Where a body begins at another one's end, it is that end.
+        Its distance is ``nearest``, and ``leaves`` whether it looks away. Where a body begins at
+        another one's end, it is that end.
         """
-        self.nearest, found = _FAR, -1
-        node, count = 0, 0
+        self.nearest, self.leaves = _FAR, 0
+        node, count, found = self.root, 0, False
         while True:
-            if self.leaf[node] >= 0:
-                if self.meets(self.leaf[node]):
-                    found = self.leaf[node]
+            if node < 0:
+                found |= self.meets(~node)
             else:
                 one, other = self.children[node, 0], self.children[node, 1]
-                near, far = self.enters(one), self.enters(other)
+                near, far = self.enters(node, 0), self.enters(node, 1)
                 if far < near:
                     one, other, near, far = other, one, far, near
                 if far <= self.nearest + self.tie:
@@ -117,14 +121,16 @@ class TriangleRays:
             count -= 1
             node = self.waiting[count]
 
-    def enters(self, node: int) -> float:
-        """Return where the ray enters the box of a node; endless if it does not."""
+    def enters(self, node: int, side: int) -> float:
+        """Return where the ray enters the box of one below a node; endless if it does not."""
         begin, end = 0.0, _ENDLESS
         for axis in range(3):
-            one = (self.bounds[node, axis] - self.ray[axis]) * self.ray[axis + 6]
-            other = (self.bounds[node, axis + 3] - self.ray[axis]) * self.ray[axis + 6]
-            begin = max(begin, min(one, other))
-            end = min(end, max(one, other))
+            inverse, place = self.ray[axis + 6], self.ray[axis]
+            turned = 2 if inverse < 0.0 else 0
+            one = (self.bounds[node, axis, side + turned] - place) * inverse
+            other = (self.bounds[node, axis, side + 2 - turned] - place) * inverse
+            begin = max(begin, one)
+            end = min(end, other)
         return begin if begin <= end else _ENDLESS
 
     def meets(self, face: int) -> bool:
@@ -153,5 +159,6 @@ class TriangleRays:
         away = (t[face, 6] * qx + t[face, 7] * qy + t[face, 8] * qz) / volume
         if away < 0.0 or away > self.nearest + (self.tie if volume < 0.0 else -self.tie):
             return False
+        self.leaves = volume < 0.0
         self.nearest = min(self.nearest, away)
         return True

@@ -12,6 +12,7 @@ from gazelle.array_types import Bools, Floats, Indices
 from gazelle.geometry.half_edges import half_edge_twins, unlike_neighbors
 from gazelle.geometry.ray_hits import TriangleRays
 from gazelle.geometry.slivers import flip_slivers
+from gazelle.geometry.triangle_distances import TriangleDistances
 
 _BITS = 21
 """Of a coordinate that places are distinguished by: a two-millionth of the size."""
@@ -56,6 +57,11 @@ class WeldedSurface:
     def rays(self) -> TriangleRays:
         """Rays against the faces, of which there is at least one."""
         return TriangleRays(self.vertices, self.faces, self.size)
+
+    @cached_property
+    def distances(self) -> TriangleDistances:
+        """Distances from the faces, of which there is at least one."""
+        return TriangleDistances(self.rays)
 
     @property
     def volume(self) -> float:

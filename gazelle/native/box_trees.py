@@ -20,6 +20,7 @@ _FAR = cython.declare(cython.double, 1e9)
 _DEEP = cython.declare(cython.int, 48)
 
 
+@cython.final
 @cython.cclass
 class BoxTree:
     """A tree of boxes, its nodes numbered from the root, each before all that is below it.
