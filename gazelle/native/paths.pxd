@@ -6,8 +6,8 @@ cdef class PathSystem(System):
     cdef public double[:, ::1] legs
     cdef public double[::1] start, spin, epoch
     cdef public bint loop
-    @cython.locals(leg=Py_ssize_t, last=Py_ssize_t, moment=double)
-    cdef Py_ssize_t leg(self, double elapsed) noexcept nogil
+    @cython.locals(leg=Py_ssize_t, last=Py_ssize_t)
+    cdef Py_ssize_t leg(self, double moment) noexcept nogil
     @cython.locals(begin=double, end=double)
     cdef double moment(self, double elapsed) noexcept nogil
 
@@ -17,7 +17,7 @@ cdef class PosePath(PathSystem):
     cdef bint plain
     @cython.locals(world=Py_ssize_t, elapsed=double)
     cdef void update(self, Py_ssize_t first, Py_ssize_t last, long long time) noexcept nogil
-    @cython.locals(leg=Py_ssize_t, since=double)
+    @cython.locals(leg=Py_ssize_t, since=double, moment=double)
     cdef void go(self, Py_ssize_t world, double elapsed) noexcept nogil
     @cython.locals(rate=double, half=double, share=double, x=double, y=double, z=double, w=double, a=double, b=double, c=double, d=double)
     cdef void turn(self, Py_ssize_t world, double elapsed) noexcept nogil

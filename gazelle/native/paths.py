@@ -64,10 +64,9 @@ class PathSystem(System):
         self.start = np.array([*path.start, *path.attitude])
         self.spin = np.array(path.spin, np.float64)
 
-    def leg(self, elapsed: float) -> int:
-        """Return the leg on which a path is after a time [s]; ``since`` is the time on it."""
+    def leg(self, moment: float) -> int:
+        """Return the leg on which a path is at a time within the way-points [s]."""
         leg, last = 0, self.legs.shape[0] - 1
-        moment = self.moment(elapsed)
         while leg + 1 < last and self.legs[leg + 1, 0] <= moment:
             leg += 1
         return leg
@@ -122,8 +121,9 @@ class PosePath(PathSystem):
 
     def go(self, world: int, elapsed: float) -> None:
         """Write the pose between two way-points."""
-        leg = self.leg(elapsed)
-        since = self.moment(elapsed) - self.legs[leg, 0]
+        moment = self.moment(elapsed)
+        leg = self.leg(moment)
+        since = moment - self.legs[leg, 0]
         self.write(
             world,
             self.legs[leg, 1] + since * self.legs[leg, 8],

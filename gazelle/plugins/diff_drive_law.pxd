@@ -10,5 +10,5 @@ cdef class DiffDriveLaw(System):
     cdef double[:, :] targets
     cdef long long[:, :] last_ns
     cdef Py_ssize_t[::1] columns, sides, start
-    @cython.locals(row=Py_ssize_t, w=Py_ssize_t, i=Py_ssize_t, wheel=Py_ssize_t, most=double)
+    @cython.locals(_=Py_ssize_t, w=Py_ssize_t, i=Py_ssize_t, wheel=Py_ssize_t, most=double)
     cdef void update(self, Py_ssize_t first, Py_ssize_t last, long long time) noexcept nogil

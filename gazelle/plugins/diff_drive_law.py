@@ -109,8 +109,11 @@ class DiffDriveLaw(System):
 
     def update(self, first: int, last: int, time: int) -> None:
         """Ramp wheel speeds towards the command, and set the motors' changed ones."""
-        for row in range(first, last):
-            w, i = row // self.rows, row % self.rows
+        w, i = first // self.rows, first % self.rows - 1
+        for _ in range(first, last):
+            i += 1
+            if i == self.rows:
+                w, i = w + 1, 0
             turning = self.angular[w, i, 2] * self.half[i]
             left, right = self.linear[w, i, 0] - turning, self.linear[w, i, 0] + turning
             left_error, right_error = left - self.speeds[w, i, 0], right - self.speeds[w, i, 1]

@@ -2,7 +2,7 @@ cimport cython
 
 from gazelle.engines.planar.bodies cimport Bodies
 
-cdef double MOST_LOOKS, PI
+cdef double MOST_LOOKS, PI, MOST_TURN
 
 cdef double bounded(Bodies w, double value, Py_ssize_t k, Py_ssize_t axis) noexcept nogil
 cdef double toward(
@@ -26,3 +26,10 @@ cdef double fastest(Bodies w, Py_ssize_t b, Py_ssize_t k, Py_ssize_t axis) noexc
 cdef Py_ssize_t count_substeps(Bodies w, Py_ssize_t first, Py_ssize_t last) noexcept nogil
 @cython.locals(b=Py_ssize_t, c=Py_ssize_t, moved=Py_ssize_t)
 cdef Py_ssize_t commit(Bodies w, Py_ssize_t first, Py_ssize_t last) noexcept nogil
+@cython.locals(sideways=bint)
+cdef bint keeps_velocity(Bodies w, Py_ssize_t b, Py_ssize_t k) noexcept nogil
+@cython.locals(sideways=bint, axis=Py_ssize_t, speed=double)
+cdef bint expect_move(Bodies w, Py_ssize_t b, Py_ssize_t k) noexcept nogil
+@cython.locals(b=Py_ssize_t, k=Py_ssize_t, longest=double)
+cdef double longest_move(
+    Bodies w, Py_ssize_t first, Py_ssize_t last, bint fresh) noexcept nogil

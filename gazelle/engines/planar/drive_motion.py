@@ -1,5 +1,6 @@
 # cython: annotation_typing=False, infer_types=True
 # mypy: disable-error-code="attr-defined, misc, no-any-return"
+# ruff: noqa: FBT001  # kernels take their arguments in order
 """Motion of bodies in a step: limits, drives and the path along an arc."""
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from cython.cimports.gazelle.engines.planar.columns import (
     FASTEST,
     FREE,
     MOVING,
+    OMNIDIRECTIONAL,
     PASSIVE,
     PUSH,
     RADIUS,
@@ -35,10 +37,11 @@ from cython.cimports.gazelle.engines.planar.columns import (
     Z,
 )
 from cython.cimports.gazelle.native.elementary import cos, sin
-from cython.cimports.libc.math import ceil, floor, isfinite, sqrt
+from cython.cimports.libc.math import ceil, fabs, floor, isfinite, sqrt
 
 MOST_LOOKS = 1000.0
 PI = 3.141592653589793
+MOST_TURN = 1.0  # of a merged step, so that a heading is wrapped by one turn [rad]
 
 
 def bounded(w: Bodies, value: float, k: int, axis: int) -> float:
@@ -206,3 +209,60 @@ def commit(w: Bodies, first: int, last: int) -> int:
         elif w.state[b] == BLOCKED:
             w.stalled[b] = 1
     return moved
+
+
+def keeps_velocity(w: Bodies, b: int, k: int) -> bool:
+    """Return whether the next step leaves the velocity of a body as it is."""
+    sideways = w.drives[k, DRIVE_KIND] == OMNIDIRECTIONAL
+    return (
+        driven(w, b, k, 0, w.dt) == w.velocity[b, 0]
+        and (not sideways or driven(w, b, k, 1, w.dt) == w.velocity[b, 1])
+        and driven(w, b, k, 2, w.dt) == w.velocity[b, 2]
+    )
+
+
+def expect_move(w: Bodies, b: int, k: int) -> bool:
+    """Set a body's velocity and state of the next step, if nothing blocks it.
+
+    Returns whether it keeps that velocity; else its velocity is as before along some axes, and as in the
+    next step along others, which changes nothing for that step.
+    """
+    sideways = w.drives[k, DRIVE_KIND] == OMNIDIRECTIONAL
+    for axis in range(3):
+        if axis == 1 and not sideways:
+            w.velocity[b, axis] = 0.0
+            continue
+        speed = driven(w, b, k, axis, w.dt)
+        if speed != wanted(w, b, k, axis):  # nor is what is not a number
+            return False
+        w.velocity[b, axis] = speed
+    vx, vy, turn = twist_of(w, b, k)
+    w.state[b] = STILL if vx == 0.0 and vy == 0.0 and turn == 0.0 else MOVING
+    if w.state[b] == MOVING:
+        remember_turn(w, b, turn * w.dt)
+    return True
+
+
+def longest_move(w: Bodies, first: int, last: int, fresh: bool) -> float:
+    """Return the longest way of a body in a step, were none blocked [m]; negative if velocities change.
+
+    Args:
+        w: All bodies.
+        first: Of a world.
+        last: Before it.
+        fresh: Whether states are those of another time, and expected here.
+    """
+    longest, k = 0.0, -1
+    for b in range(first, last):
+        k = k + 1 if k + 1 < w.drives.shape[0] else 0
+        if w.drives[k, DRIVE_KIND] == PASSIVE:
+            w.state[b] = STILL
+            continue
+        if not (expect_move(w, b, k) if fresh else keeps_velocity(w, b, k)):
+            return -1.0
+        vx, vy, turn = twist_of(w, b, k)
+        angle = w.memory[b, TURN]  # of a part of a step, if the last one had several
+        if w.state[b] == MOVING and not (fabs(angle) <= MOST_TURN and angle == turn * w.dt):
+            return -1.0
+        longest = max(longest, vx * vx + vy * vy)
+    return sqrt(longest) * w.dt

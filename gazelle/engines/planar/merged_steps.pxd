@@ -27,26 +27,24 @@ cdef class Moving(System):
 
 @cython.locals(
     world=Py_ssize_t, left=Py_ssize_t, steps=Py_ssize_t, pause=Py_ssize_t, queued=Py_ssize_t,
-    b=Py_ssize_t, _=Py_ssize_t)
+    k=Py_ssize_t, b=Py_ssize_t, _=Py_ssize_t)
 cdef void advance_worlds(
     Bodies w, Py_ssize_t first, Py_ssize_t last, Py_ssize_t count) noexcept nogil
 cdef void advance_queued(
     Bodies w, double *table, Py_ssize_t *which, Py_ssize_t number) noexcept nogil
-@cython.locals(sideways=bint)
-cdef bint keeps_velocity(Bodies w, Py_ssize_t b, Py_ssize_t k) noexcept nogil
-@cython.locals(sideways=bint, axis=Py_ssize_t, speed=double)
-cdef bint expect_move(Bodies w, Py_ssize_t b, Py_ssize_t k) noexcept nogil
-@cython.locals(b=Py_ssize_t, k=Py_ssize_t, longest=double)
-cdef double longest_move(
-    Bodies w, Py_ssize_t first, Py_ssize_t last, bint fresh) noexcept nogil
-@cython.locals(b=Py_ssize_t, most=double)
+@cython.locals(k=Py_ssize_t, most=double)
 cdef Py_ssize_t steps_alike(
     Bodies w, Py_ssize_t world, Py_ssize_t left, bint fresh) noexcept nogil
-cdef double free_steps(Bodies w, Py_ssize_t b, double longest, double most) noexcept nogil
-@cython.locals(row=Py_ssize_t, cell=Py_ssize_t, b=Py_ssize_t, gap=double)
-cdef double gap_around(Bodies w, Py_ssize_t a, double most) noexcept nogil
+cdef double free_steps(
+    Bodies w, Py_ssize_t world, Py_ssize_t k, double longest, double most) noexcept nogil
+@cython.locals(row=Py_ssize_t, cell=Py_ssize_t, gap=double)
+cdef double gap_around(Bodies w, Py_ssize_t world, Py_ssize_t k, double most) noexcept nogil
+@cython.locals(b=Py_ssize_t, gap=double)
+cdef double gap_in(
+    Bodies w, Py_ssize_t world, Py_ssize_t k, Py_ssize_t cell, double most) noexcept nogil
 cdef void load(
-    Bodies w, Py_ssize_t b, Py_ssize_t steps, double *table, Py_ssize_t column) noexcept nogil
+    Bodies w, Py_ssize_t b, Py_ssize_t k, Py_ssize_t steps, double *table, Py_ssize_t column
+) noexcept nogil
 @cython.locals(i=Py_ssize_t, k=Py_ssize_t, most=double, yaw=double, unit=double, going=bint)
 cdef void drive(double *table, Py_ssize_t number) noexcept nogil
 @cython.locals(i=Py_ssize_t, b=Py_ssize_t)

@@ -41,8 +41,9 @@ class PathFollower(PathSystem):
                 yaw = self.heading + self.spin[2] * elapsed
                 put(self.bodies, b, self.start[0], self.start[1], self.start[2], yaw)
             else:
-                leg = self.leg(elapsed)
-                since = self.moment(elapsed) - self.legs[leg, 0]
+                moment = self.moment(elapsed)
+                leg = self.leg(moment)
+                since = moment - self.legs[leg, 0]
                 put(
                     self.bodies,
                     b,
