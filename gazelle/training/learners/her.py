@@ -103,14 +103,16 @@ class HindsightReplayBuffer(MaskedReplayBuffer):
         later = self._later(rows[:count], slots[:count])
         if self._redraw:
             self._draw_again(rows[:count], slots[:count], later)
-        parts = super()._parts(rows, slots)
-        desired = self._goals.desired
         goals = self._achieved(later, slots[:count])
-        parts["observations"][:count, desired] = goals
-        parts["next_observations"][:count, desired] = goals
-        parts["rewards"][:count] = self._summed(
-            rows[:count], slots[:count], lambda at: self._rewards(at, slots[:count], goals)
-        )[1]["rewards"]
+
+        def rewards_at(at: npt.NDArray[np.intp]) -> npt.NDArray[np.float32]:
+            rewards: npt.NDArray[np.float32] = self.rewards[at, slots]
+            rewards[:count] = self._rewards(at[:count], slots[:count], goals)
+            return rewards
+
+        parts = self._transitions(rows, slots, rewards_at)
+        for name in ("observations", "next_observations"):
+            parts[name][:count, self._goals.desired] = goals
         return parts
 
     def _rewards(

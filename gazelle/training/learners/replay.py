@@ -104,7 +104,16 @@ class MaskedReplayBuffer(ReplayBuffer):  # type: ignore[misc]  # untyped base
         self, rows: npt.NDArray[np.intp], slots: npt.NDArray[np.intp]
     ) -> dict[str, npt.NDArray[Any]]:
         """Return the transitions at the given rows and slots, arrays of their own."""
-        last, following = self._summed(rows, slots, lambda at: self.rewards[at, slots])
+        return self._transitions(rows, slots, lambda at: self.rewards[at, slots])
+
+    def _transitions(
+        self,
+        rows: npt.NDArray[np.intp],
+        slots: npt.NDArray[np.intp],
+        rewards_at: Callable[[npt.NDArray[np.intp]], npt.NDArray[np.float32]],
+    ) -> dict[str, npt.NDArray[Any]]:
+        """Return the same, with rewards as `_summed` takes them."""
+        last, following = self._summed(rows, slots, rewards_at)
         cut_off = self.timeouts[last, slots]
         return {
             "observations": self.observations[rows, slots],
