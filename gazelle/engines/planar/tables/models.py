@@ -66,7 +66,7 @@ class PlanarModelRow:
 
     def planar_pose(self, worlds: Worlds | None = None) -> Floats:
         """Return the pose seen from above: x, y [m] and heading [rad], shape (n, 3)."""
-        each, body = self._run.model(self._name), self._run.layout.bodies.get(self._name)
+        each, body = self._place.within(self._run.layout)
         count = self._run.fleet.nworld if worlds is None else len(worlds)
         if body is None:
             pose = each.model.pose
