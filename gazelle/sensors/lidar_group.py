@@ -12,7 +12,7 @@ from gazelle.engines import Engine, RangeRays
 from gazelle.native.system import System
 from gazelle.sensors.lidar_ranges import LidarNoise, LidarSystem, RangeLaw, measure
 
-_SHARE = 2000  # ranges that are worth a thread
+_SHARE = 4000  # ranges that are worth a thread
 
 
 class LidarGroup:
