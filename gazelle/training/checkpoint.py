@@ -69,6 +69,9 @@ def write_checkpoint(folder: Path, learner: Learner, extra: dict[str, Any]) -> N
     ahead = getattr(learner, "ahead", None)
     if ahead is not None:
         state["ahead"] = ahead.get_state()
+    reward_scale = getattr(learner, "reward_scale", None)
+    if reward_scale is not None:
+        state["reward_scale"] = reward_scale.get_state()
     memory = getattr(learner, "replay_buffer", None)
     if memory is not None:
         state["memory"] = memory.get_state()
@@ -98,6 +101,8 @@ def read_checkpoint(folder: Path, learner: Learner) -> dict[str, Any]:
             learner._last_lstm_states = type(present)(*parts)  # noqa: SLF001
         if "ahead" in state:
             learner.resume_update(state["ahead"])
+        if getattr(learner, "reward_scale", None) is not None:
+            learner.reward_scale.set_state(state["reward_scale"])
         if "memory" in state:
             learner.replay_buffer.set_state(state["memory"])
         _restore_environment(learner, state)

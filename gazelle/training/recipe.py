@@ -57,6 +57,9 @@ class PPOSettings:
     initial_std: float = 1.0
     """Standard deviation of continuous actions at first, in their units: what is learnt of is soon lost
     in the noise where it is many times what actions should be."""
+    scale_rewards: bool = False
+    """True if rewards are divided by the standard deviation of the discounted returns seen so far, and
+    cut at 10 times that, so that their units do not matter."""
     bfloat16: bool = False
     """True if updates multiply in bfloat16 where the processor can, which is faster."""
     overlap: bool = False

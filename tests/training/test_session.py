@@ -47,6 +47,7 @@ CASES = [
     ("ahead", "NextStep", True),
     ("ppo", "NextStep", True),
     ("ppo", "Disabled", False),
+    ("scaled", "SameStep", False),
     pytest.param("dqn", "SameStep", False, marks=pytest.mark.long),
     pytest.param("sac", "NextStep", True, marks=pytest.mark.long),
     pytest.param("td3", "SameStep", True, marks=pytest.mark.long),
@@ -60,7 +61,11 @@ def test_an_interrupted_and_resumed_run_equals_an_uninterrupted_one(
     tmp_path, tiny, algo, mode, continuous, bound
 ):
     ahead = dataclasses.replace(tiny, settings=dataclasses.replace(tiny.settings, overlap=True))
-    recipe = {"ppo": tiny, "ahead": ahead}.get(algo) or off_policy(algo)
+    scaled = dataclasses.replace(
+        tiny, settings=dataclasses.replace(tiny.settings, scale_rewards=True)
+    )
+    own = {"ppo": tiny, "ahead": ahead, "scaled": scaled}
+    recipe = own.get(algo) or off_policy(algo)
     given = {"recipe": recipe, "seed": 5, "mode": mode, "continuous": continuous, "bound": bound}
     whole = train("test/Corridor-v0", out=tmp_path / "whole", **given)
     stop = StopAt(recipe.steps // 2)

@@ -36,6 +36,7 @@ from gazelle.training.learners.ppo_update import (
     learns_features,
     loss_of,
 )
+from gazelle.training.learners.reward_scale import RewardScale
 from gazelle.training.recipes import PPOSettings, Recipe
 from gazelle.training.rollout import CutOff, Rollout
 from gazelle.training.scaling import ObservationScale
@@ -92,6 +93,7 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
     bfloat16: bool = False
     overlap: bool = False
     ahead: OverlappedUpdate | None = None
+    reward_scale: RewardScale | None = None
     _last_obs: Floats32
     _last_episode_starts: npt.NDArray[np.bool_]
 
@@ -139,6 +141,9 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
             flat = met.observations.reshape(n_rollout_steps * env.num_envs, -1)
             outputs = actor.outputs(flat).reshape(outputs.shape)
         self._fill(rollout_buffer, met)
+        if self.reward_scale is not None:
+            scaled = self.reward_scale.scaled(met.rewards, met.starts, met.valid)
+            rollout_buffer.rewards[:] = scaled
         rollout_buffer.log_probs[:] = _log_probs(actor, outputs, rollout_buffer.actions)
         self._finish(rollout_buffer, met.cut_off)
         callback.on_rollout_end()
@@ -301,4 +306,6 @@ def build_ppo(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
     )
     learner.bfloat16 = settings.bfloat16
     learner.overlap = settings.overlap
+    if settings.scale_rewards:
+        learner.reward_scale = RewardScale(env.num_envs, recipe.gamma)
     return learner
