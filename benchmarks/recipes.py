@@ -8,6 +8,7 @@ another seed lies with a probability of 95 %.
   gazelle bench recipes                            # the TurtleBot3 stages
   gazelle bench recipes --tasks Husarion UR5Reach
   gazelle bench recipes --tasks "TurtleBot3Stage4Continuous --algo sac"
+  gazelle bench recipes --tasks examples/dock.py:my/Dock-v0 --out runs    # any file with a task
   gazelle bench recipes --tasks all --write        # goes on where it was broken off
   gazelle bench recipes --verify --cheap           # does today's code reach what is published?
 """
@@ -29,9 +30,10 @@ from _claim_table import table
 from _verify import CHEAP, seed_of, verify, within, worth_verifying
 
 from gazelle.cli import train as train_command
-from gazelle.training import find_task, recipe_for
+from gazelle.training import make_task, task_recipe
 from gazelle.training.claims import CLAIMS_FILE, Claim, Trial, read_claims
 from gazelle.training.recipes import task_name
+from gazelle.training.tasks import env_attribute, split_module
 from gazelle_ros.cli.parsing import Parser
 
 _STAGES = tuple(f"TurtleBot3Stage{stage}" for stage in (1, 2, 3, 4))
@@ -62,15 +64,29 @@ def selected(tasks: Sequence[str], engines: Sequence[str]) -> list[Claim]:
 def new(train: str) -> Claim:
     """Return a claim of a training that has none yet."""
     args = command_arguments(train)
-    recipe = recipe_for(find_task(args.task), args.algo)
-    engine = args.engine or str(recipe.training_options.get("engine", "mujoco"))
+    recipe = task_recipe(args.task, args.algo)
+    file, _ = split_module(args.task)
+    engine = args.engine or recipe.training_options.get("engine")
+    if file is not None:
+        engine = engine or engine_of(args.task)
+    engine = str(engine or "mujoco")
+    options = [f"--engine {engine}"] if file is None or args.engine else []
+    options += [] if file is None else [f"--import {shlex.quote(file)}"]
     return Claim(
         task=task_name(args.task),
         algo=recipe.algo,
         engine=engine,
         train=train,
-        evaluate=f"gazelle eval RUN --engine {engine} --episodes {_EPISODES.get(engine, 300)}",
+        evaluate=f"gazelle eval RUN {' '.join(options)} --episodes {_EPISODES.get(engine, 300)}",
     )
+
+
+def engine_of(task: str) -> str:
+    """Return the engine that a user's task chooses itself."""
+    env = make_task(task, 1)
+    simulation = env_attribute(env, "task").simulation
+    env.close()
+    return str(simulation.engine_name)
 
 
 def command_arguments(train: str) -> argparse.Namespace:

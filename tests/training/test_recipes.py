@@ -3,7 +3,6 @@ from __future__ import annotations
 import dataclasses
 import json
 import math
-from pathlib import Path
 
 import pytest
 
@@ -130,17 +129,6 @@ def test_the_fleets_recipe_learns_what_the_defaults_do_not(tmp_path):
     result = train("AGVFleet", out=tmp_path)
     found = evaluate(result.run.folder, episodes=720, num_envs=720)
     assert found.success.interval[0] > 0.86
-
-
-@pytest.mark.slow
-def test_a_users_task_learns_with_the_defaults(tmp_path):
-    """Distances and angles are observed as such; without features of them 35 % dock."""
-    from gazelle.training import evaluate, train
-
-    example = str(Path(__file__).parents[2] / "examples" / "dock.py")
-    result = train(f"{example}:my/Dock-v0", out=tmp_path, seed=1)
-    found = evaluate(result.run.folder, episodes=300, imports=[example])
-    assert found.success.interval[0] > 0.9
 
 
 def test_learners_that_can_stand_still_pay_less_for_collisions_on_stage_4():

@@ -46,7 +46,8 @@ class RewardScale:
         if valid.any():
             self._seen.update(returns[valid])
         unit = np.sqrt(self._seen.var + _LEAST_VARIANCE)
-        return np.clip(rewards / unit, -_LARGEST, _LARGEST).astype(np.float32)
+        scaled: Floats32 = np.clip(rewards / unit, -_LARGEST, _LARGEST).astype(np.float32)
+        return scaled
 
     def get_state(self) -> dict[str, Any]:
         """Return the state that `set_state` restores."""
