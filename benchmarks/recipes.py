@@ -8,7 +8,7 @@ another seed lies with a probability of 95 %.
   gazelle bench recipes                            # the TurtleBot3 stages
   gazelle bench recipes --tasks Husarion UR5Reach
   gazelle bench recipes --tasks "TurtleBot3Stage4Continuous --algo sac"
-  gazelle bench recipes --tasks examples/dock.py:my/Dock-v0 --out runs    # any file with a task
+  gazelle bench recipes --tasks examples/dock.py:my/Dock-v0      # any task of a file
   gazelle bench recipes --tasks all --write        # goes on where it was broken off
   gazelle bench recipes --verify --cheap           # does today's code reach what is published?
 """

@@ -15,6 +15,7 @@ from gazelle.cli import evaluate, train
 from gazelle.errors import FormatError
 from gazelle.training import list_tasks, recipe_for
 from gazelle.training.claims import CLAIMS_FILE, Claim, Trial, published_claims, read_claims
+from gazelle.training.recipes import task_name
 from gazelle_ros.cli.parsing import Parser
 
 BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
@@ -43,11 +44,11 @@ def parsed(command, module):
 @pytest.mark.parametrize("claim", CLAIMS, ids=NAMES)
 def test_commands_are_valid_and_of_what_the_claim_says(claim):
     training = parsed(f"{claim.train} --seed 3 --out runs", train)
-    assert training.task == claim.task
+    assert task_name(training.task) == claim.task
     assert recipe_for(claim.task, training.algo).algo == claim.algo
     evaluation = parsed(f"{claim.evaluate} --json", evaluate)
     assert str(evaluation.run) == "RUN"
-    assert evaluation.engine == claim.engine
+    assert evaluation.engine == claim.engine or (":" in training.task and not evaluation.engine)
     assert claim.evaluate.count("RUN") == 1
 
 
@@ -66,7 +67,8 @@ def test_trials_are_possible_and_have_a_commit_and_a_day(claim):
 def test_each_claim_is_there_once_and_each_task_has_one_or_a_line_that_says_why_not():
     assert len({claim.key for claim in CLAIMS}) == len(CLAIMS)
     unverified = published_claims().unverified
-    assert {claim.task for claim in CLAIMS} | set(unverified) == OWN
+    listed = {claim.task for claim in CLAIMS if ".py:" not in claim.train}
+    assert listed | set(unverified) == OWN
     assert not {claim.task for claim in CLAIMS} & set(unverified)
     assert all(why and "\n" not in why for why in unverified.values())
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -23,6 +24,20 @@ def task_of(file):
     return f"{EXAMPLES / file}.py:{TASKS[file]}"
 
 
+@pytest.fixture
+def benchmark(monkeypatch):
+    """Yield the module that measures success rates, and forget those beside it."""
+    folder = EXAMPLES.parent / "benchmarks"
+    monkeypatch.syspath_prepend(str(folder))
+    known = set(sys.modules)
+    import recipes
+
+    yield recipes
+    for name in set(sys.modules) - known:
+        if str(folder) in str(getattr(sys.modules[name], "__file__", "")):
+            del sys.modules[name]
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("file", TASKS)
 def test_episodes_are_those_of_their_seed_and_in_the_space(file):
@@ -36,6 +51,20 @@ def test_episodes_are_those_of_their_seed_and_in_the_space(file):
         env.close()
         played.append(rows)
     np.testing.assert_array_equal(*played)
+
+
+@pytest.mark.parametrize(
+    ("options", "engine", "evaluate"),
+    [
+        ("", "planar", "--import examples/dock.py --episodes 1000"),
+        (" --engine mujoco", "mujoco", "--engine mujoco --import examples/dock.py --episodes 300"),
+    ],
+)
+def test_a_benchmark_measures_the_task_of_a_file(benchmark, monkeypatch, options, engine, evaluate):
+    monkeypatch.chdir(EXAMPLES.parent)
+    claim = benchmark.new(f"gazelle train examples/dock.py:my/Dock-v0{options}")
+    assert (claim.task, claim.algo, claim.engine) == ("Dock", "ppo", engine)
+    assert claim.evaluate == f"gazelle eval RUN {evaluate}"
 
 
 @pytest.mark.slow
