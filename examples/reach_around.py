@@ -36,7 +36,7 @@ class ReachAround(SimulationTask):
         self.hand, tool = robot.frame("tool0")
         self.tool = np.array(tool.position)
         for joint in robot.joints.values():
-            joint.add_motor(150.0)  # N m at most
+            joint.add_motor(60.0)  # N m at most
         self.joints = [robot.joints[name] for name in JOINTS]
         high = np.concatenate((HIGH + 0.1, np.full(3, 2.0))).astype(np.float32)
         low = np.concatenate((LOW - 0.1, np.full(3, -2.0))).astype(np.float32)
