@@ -124,7 +124,7 @@ def _decorate_members(kind: type, checking: Callable[..., Any]) -> None:
     for name, member in list(vars(kind).items()):
         if name not in ("__init__", "__getitem__") and (name[0] == "_" or name in _TRUSTED):
             continue
-        if inspect.isfunction(member) and member not in _WRAPPED:
+        if hasattr(member, "__code__") and member not in _WRAPPED:  # compiled ones too
             setattr(kind, name, checking(member, first=given and name == "__init__"))
         elif isinstance(member, classmethod | staticmethod):
             setattr(kind, name, type(member)(checking(member.__func__)))

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 from gazelle.argument_checks import checked
 from gazelle.description import JointAxis, Pose, Vector3
 from gazelle.errors import PlanningError
+from gazelle.native.fair_lock import FairLock, locked
 from gazelle.sensors import LaserScan
 
 
@@ -148,3 +149,18 @@ def test_measurements_may_hold_infinite_numbers():
 
     scan = LaserScan(0, np.array([1.0, np.inf, -np.inf]), -1.0, 1.0, 1.0, 0.1, np.inf)
     assert take(scan) == np.inf
+
+
+def test_methods_that_hold_a_lock_are_checked_too():
+    @checked(PlanningError)
+    class Kept:
+        _lock = FairLock()
+
+        @locked
+        def double(self, value: float) -> float:
+            """Return twice a value."""
+            return 2.0 * value
+
+    assert Kept().double(2.0) == 4.0
+    with pytest.raises(PlanningError):
+        Kept().double(math.nan)

@@ -16,6 +16,7 @@ cdef class FairLock:
     cdef readonly object waiting
     cdef public bint closed
     cdef Py_ssize_t depth
+    cdef object _enter(self)
     cdef object _take(self)
     cdef object _drop(self)
     cdef object _wait(self, Turn turn)

@@ -13,6 +13,8 @@ runs this source the same is true between two calls, which is why the queue is r
 
 from __future__ import annotations
 
+import functools
+import inspect
 from _thread import allocate_lock
 from collections import deque
 from collections.abc import Callable
@@ -30,6 +32,7 @@ if not cython.compiled:
 
 # How often a waiting thread checks that the owner can ever answer it [s]. A turn wakes it.
 _LOOK: float = 0.25
+_VARIABLE = inspect.CO_VARARGS | inspect.CO_VARKEYWORDS
 
 
 def _wait_on(owner: int) -> None:
@@ -93,10 +96,7 @@ class FairLock:
         self._drop()
 
     def __enter__(self) -> None:
-        self._take()
-        if self.closed and self.depth == 1:
-            self._drop()
-            self.refuse()
+        self._enter()
 
     def __exit__(
         self,
@@ -145,6 +145,13 @@ class FairLock:
             self.owner = me
             self.depth = 1
             self._pass_on()
+
+    @cython.cfunc
+    def _enter(self) -> Any:
+        self._take()
+        if self.closed and self.depth == 1:
+            self._drop()
+            self.refuse()
 
     @cython.cfunc
     def _take(self) -> Any:
@@ -208,3 +215,40 @@ class FairLock:
                 self._pass_on()
                 raise
         self.owner = 0
+
+
+def locked(method: Callable[..., Any]) -> Callable[..., Any]:
+    """Return a method that holds ``self._lock`` while it calls another; of None it holds nothing."""
+    code = method.__code__
+    if code.co_argcount == 1 and not code.co_kwonlyargcount and not code.co_flags & _VARIABLE:
+        return _locked_getter(method)
+
+    @functools.wraps(method)
+    def holding(self: Any, /, *args: Any, **options: Any) -> Any:
+        lock: FairLock | None = self._lock
+        if lock is None or lock.owner == get_ident():
+            return method(self, *args, **options)
+        lock._enter()  # noqa: SLF001  its own class
+        try:
+            return method(self, *args, **options)
+        finally:
+            lock._drop()  # noqa: SLF001
+
+    return holding
+
+
+def _locked_getter(method: Callable[[Any], Any]) -> Callable[[Any], Any]:
+    """Return ``locked`` of a method without arguments, which saves making an empty tuple and dict."""
+
+    @functools.wraps(method)
+    def holding(self: Any) -> Any:
+        lock: FairLock | None = self._lock
+        if lock is None or lock.owner == get_ident():
+            return method(self)
+        lock._enter()  # noqa: SLF001  its own class
+        try:
+            return method(self)
+        finally:
+            lock._drop()  # noqa: SLF001
+
+    return holding

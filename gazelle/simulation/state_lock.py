@@ -7,14 +7,13 @@ reading is of one moment.
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Callable
 from concurrent.futures import Future
 from typing import Concatenate, ParamSpec, Protocol, TypeVar
 
 from gazelle.array_types import Worlds
 from gazelle.errors import SimulationError
-from gazelle.native.fair_lock import FairLock
+from gazelle.native.fair_lock import FairLock, locked
 from gazelle.simulation.deadlocks import BlockedOwner
 from gazelle.simulation.inputs import chosen
 
@@ -95,16 +94,8 @@ S = TypeVar("S", bound=Owned)
 
 def between_steps(method: Callable[Concatenate[S, P], T]) -> Callable[Concatenate[S, P], T]:
     """Wrap a method so that it holds the simulation's lock, from any thread."""
-
-    @functools.wraps(method)
-    def locked(self: S, /, *args: P.args, **options: P.kwargs) -> T:
-        lock = self._lock
-        if lock is None or lock.is_owner():
-            return method(self, *args, **options)
-        with lock:
-            return method(self, *args, **options)
-
-    return locked
+    held: Callable[Concatenate[S, P], T] = locked(method)
+    return held
 
 
 class StatePart:

@@ -11,7 +11,7 @@ from types import SimpleNamespace
 import pytest
 
 from gazelle.native import BUILD
-from gazelle.native.fair_lock import FairLock
+from gazelle.native.fair_lock import FairLock, locked
 
 
 def asking(lock, work):
@@ -309,3 +309,65 @@ def test_no_interrupt_leaves_the_lock_with_a_thread_that_does_not_know_it(interr
             thread.join()
     assert lock.owner == 0
     assert not lock.waiting
+
+
+class Kept:
+    """Has a lock, and methods of both kinds that hold it."""
+
+    def __init__(self, lock):
+        self._lock = lock
+
+    @locked
+    def owner(self):
+        """Return who holds the lock."""
+        return self._lock and self._lock.owner
+
+    @locked
+    def nested(self, first, *, second=0):
+        """Return who holds the lock, and the arguments."""
+        return self.owner(), first, second
+
+    @locked
+    def fail(self):
+        """Raise an error."""
+        raise LookupError
+
+
+def test_a_locked_method_holds_the_lock_and_gives_it_up():
+    kept = Kept(FairLock())
+    me = threading.get_ident()
+    assert kept.owner() == me
+    assert kept.nested(1, second=2) == (me, 1, 2)
+    with pytest.raises(LookupError):
+        kept.fail()
+    with kept._lock:
+        assert kept.nested(3) == (me, 3, 0)
+    assert kept._lock.owner == 0
+    assert Kept(None).nested(1) == (None, 1, 0)
+    assert Kept.owner.__doc__ == "Return who holds the lock."
+
+
+@pytest.mark.parametrize("call", [Kept.owner, lambda kept: kept.nested(1)])
+def test_a_locked_method_waits_for_its_turn(call):
+    kept, found = Kept(FairLock()), []
+    with kept._lock:
+        other = threading.Thread(target=lambda: found.append(call(kept)))
+        other.start()
+        while not kept._lock.waiting:
+            time.sleep(0.001)
+        assert not found
+    other.join()
+    assert found
+
+
+@pytest.mark.parametrize("call", [Kept.owner, lambda kept: kept.nested(1)])
+def test_a_locked_method_is_refused_by_a_closed_lock(call):
+    class Refusing(FairLock):
+        def refuse(self):
+            raise LookupError
+
+    kept = Kept(Refusing())
+    kept._lock.closed = True
+    with pytest.raises(LookupError):
+        call(kept)
+    assert kept._lock.owner == 0

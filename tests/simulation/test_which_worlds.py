@@ -106,7 +106,7 @@ def thing(sim, kind):
 def test_no_call_that_takes_worlds_is_forgotten_here(kind):
     takes = {
         name
-        for name, method in inspect.getmembers(kind, inspect.isfunction)
+        for name, method in inspect.getmembers(kind, inspect.isroutine)
         if not name.startswith("_") and "worlds" in inspect.signature(method).parameters
     }
     assert takes - (INNER if kind is not Simulation else set()) == set(CALLS[kind])
