@@ -21,7 +21,8 @@ from gazelle.sensors.force_torque import ForceTorque, ForceTorqueModel, WrenchRe
 from gazelle.sensors.geodesy import TangentPlane
 from gazelle.sensors.gps import Gps, GpsModel, GpsReading
 from gazelle.sensors.imu import ImuModel, ImuReading
-from gazelle.sensors.lidar import LaserScan, LidarModel
+from gazelle.sensors.laser_scan import LaserScan
+from gazelle.sensors.lidar import LidarModel
 from gazelle.sensors.magnetometer import MagneticReading, Magnetometer, MagnetometerModel
 from gazelle.sensors.model import GroupedModel, ScanningModel, SensorModel
 from gazelle.sensors.noise import NoiseModel

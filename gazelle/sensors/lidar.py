@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +12,7 @@ from gazelle.array_types import Floats, UInts64, Worlds
 from gazelle.description import Lidar, Pose, Scan
 from gazelle.engines import Engine, RangeRays
 from gazelle.errors import SimulationError
+from gazelle.sensors.laser_scan import LaserScan
 from gazelle.sensors.lidar_group import LidarGroup
 from gazelle.sensors.lidar_ranges import LidarNoise, RangeLaw, measure
 from gazelle.sensors.limits import check_interval, check_rays, check_worlds
@@ -20,31 +20,6 @@ from gazelle.sensors.model import SystemMaker
 from gazelle.sensors.noise import NoiseModel
 
 _NEAR = 1e-3  # rays are no shorter [m]
-
-
-@dataclass(frozen=True, slots=True)
-class LaserScan:
-    """One measurement of a lidar.
-
-    Attributes:
-        stamp: Simulated time [ns].
-        ranges: [m], shape (..., rows * samples), row by row from the lowest, each
-            counter-clockwise from ``angle_min``. +inf: nothing within ``range_max``;
-            -inf: something nearer than ``range_min`` (as REP 117 says it).
-        angle_min: Angle of the first ray about z [rad].
-        angle_max: Angle of the last ray [rad].
-        angle_increment: Between two rays [rad].
-        range_min: [m].
-        range_max: [m].
-    """
-
-    stamp: int
-    ranges: Floats
-    angle_min: float
-    angle_max: float
-    angle_increment: float
-    range_min: float
-    range_max: float
 
 
 @checked(SimulationError, after=True)

@@ -26,7 +26,7 @@ cpdef void measure(
     RangeLaw law, LidarNoise noise, double[:, ::1] ranges, double offset,
     double[:, ::1] measured) noexcept
 
-@cython.locals(k=Py_ssize_t, each="double[::1]")
+@cython.locals(k=Py_ssize_t, near="double[::1]", each="double[::1]")
 cpdef infinite_from(double reach, ranges)
 
 

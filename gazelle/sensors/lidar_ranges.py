@@ -119,10 +119,10 @@ def measure(
 
 def infinite_from(reach: float, ranges: Floats) -> Floats:
     """Return new ranges [m], infinite where they are not below a reach [m]."""
-    found = np.array(ranges, np.float64, order="C")
-    each = found.reshape(-1)
+    found = np.empty(ranges.shape)
+    near, each = np.ascontiguousarray(ranges).reshape(-1), found.reshape(-1)
     for k in range(each.shape[0]):
-        each[k] = each[k] if each[k] < reach else INF
+        each[k] = near[k] if near[k] < reach else INF
     return found
 
 

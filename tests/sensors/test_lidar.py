@@ -1,5 +1,7 @@
 """The lidar against geometry."""
 
+import dataclasses
+import pickle
 from dataclasses import replace
 
 import numpy as np
@@ -12,7 +14,7 @@ from gazelle import formats
 from gazelle.description import Lidar, Noise, Pose, Scan
 from gazelle.engines import make_engine
 from gazelle.errors import SimulationError
-from gazelle.sensors import LidarModel
+from gazelle.sensors import LaserScan, LidarModel
 from gazelle.sensors.lidar import angles_of
 
 
@@ -140,3 +142,17 @@ def test_angles_include_both_ends_and_follow_the_resolution():
     np.testing.assert_allclose(angles_of(Scan(3, min_angle=-1.0, max_angle=1.0)), [-1, 0, 1])
     assert len(angles_of(Scan(10, 0.5, 0.0, 1.0))) == 5
     assert angles_of(Scan(1, 1.0, 0.3, 1.0)).tolist() == [0.3]
+
+
+def test_a_scan_is_a_frozen_value():
+    scan = LaserScan(5, np.arange(3.0), -1.0, 1.0, 1.0, 0.1, range_max=np.inf)
+    assert [each.name for each in dataclasses.fields(scan)][:2] == ["stamp", "ranges"]
+    with pytest.raises(AttributeError):
+        scan.stamp = 6
+    later = dataclasses.replace(scan, stamp=6)
+    assert (later.stamp, later.ranges is scan.ranges) == (6, True)
+    read = pickle.loads(pickle.dumps(scan))
+    assert repr(read) == repr(scan)
+    assert repr(scan).startswith("LaserScan(stamp=5, ranges=array([0., 1., 2.]), angle_min=-1.0")
+    with pytest.raises(TypeError):
+        LaserScan(5, np.arange(3.0))
