@@ -92,18 +92,13 @@ class Pose:
         if norm != 0.0:
             scale = 1.0 if abs(norm - 1.0) < _ROUNDING else norm
             turned = float(x) / scale, float(y) / scale, float(z) / scale, float(w) / scale
-        pose, place = cls.__new__(cls), (float(px), float(py), float(pz))
-        pose._position, pose._quaternion = place, turned  # noqa: SLF001  its own class
-        return pose
+        return cls.exactly((float(px), float(py), float(pz)), turned)
 
     @classmethod
     def exactly(cls, position: Vector3, quaternion: Quaternion) -> Pose:
         """Return a pose of the very numbers, NaN too, of another's ``position`` and ``quaternion``."""
-        try:
-            pose = cls(*position)
-        except TypeError as error:
-            raise _refused("three numbers and a quaternion of four", error) from error
-        pose._quaternion = quaternion  # its own class
+        pose = cls.__new__(cls)
+        pose._position, pose._quaternion = position, quaternion  # noqa: SLF001  its own class
         return pose
 
     @classmethod

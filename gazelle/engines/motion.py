@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
+from gazelle.description import Pose
 from gazelle.errors import EngineError
 from gazelle.rotations import conjugate, multiply, rotate
 
@@ -24,6 +25,10 @@ class Placement:
 
     position: Floats
     quaternion: Floats
+
+    def first(self) -> Pose:
+        """Return the pose in the first world."""
+        return Pose.from_quaternion(self.position[0].tolist(), self.quaternion[0].tolist())
 
     @checked(EngineError, after=True)
     def relative_to(self, frame: Placement) -> Placement:

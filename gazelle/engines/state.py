@@ -12,6 +12,7 @@ from typing import Protocol
 from numpy.typing import ArrayLike
 
 from gazelle.array_types import Bools, Floats, Indices, Worlds
+from gazelle.description import Pose
 from gazelle.engines.motion import Hits, Motion, Placement
 from gazelle.engines.reactions import Wrench
 from gazelle.native.joint_system import JointSystem
@@ -252,6 +253,9 @@ class ModelRows(FrameRows, Protocol):
 
 class ModelRow(FrameRows, Protocol):
     """One model of all worlds."""
+
+    def pose(self, world: int) -> Pose:
+        """Return the pose of the model's frame in one world, to the bit that of ``placement``."""
 
     def planar_pose(self, worlds: Worlds | None = None) -> Floats:
         """Return the pose seen from above: x, y [m] and heading [rad], shape (n, 3)."""

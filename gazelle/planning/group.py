@@ -169,7 +169,7 @@ class Group:
             placed = self.robot.links[root].placement(rows)
         else:
             placed = self.robot.placement(rows)
-        return Pose.from_quaternion(placed.position[0].tolist(), placed.quaternion[0].tolist())
+        return placed.first()
 
     def see(self, *names: str) -> None:
         """Add other models of the simulation to the scene, at their present poses.

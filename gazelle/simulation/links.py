@@ -45,8 +45,7 @@ class LinkHandle:
     @between_steps
     def pose(self) -> Pose:
         """Pose in world 0."""
-        place = self._row.placement(FIRST_WORLD)
-        return Pose.from_quaternion(place.position[0].tolist(), place.quaternion[0].tolist())
+        return self._row.placement(FIRST_WORLD).first()
 
     @between_steps
     def placement(self, worlds: Worlds | None = None) -> Placement:

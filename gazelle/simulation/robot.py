@@ -193,8 +193,7 @@ class Robot(Ports):
     @between_steps
     def pose(self) -> Pose:
         """Pose of the model frame in world 0."""
-        place = self._row.placement(FIRST_WORLD)
-        return Pose.from_quaternion(place.position[0].tolist(), place.quaternion[0].tolist())
+        return self._row.pose(0)
 
     @property
     @between_steps

@@ -10,10 +10,11 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gazelle.array_types import Floats, Worlds
+from gazelle.array_types import Floats, Indices, Worlds
 from gazelle.description import World
 from gazelle.engines.limits import physics_step
 from gazelle.engines.planar.body_conversion import ConvertedModel
+from gazelle.engines.planar.body_poses import poses_of
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.layout import FleetInput, PlanarLayout, build, rolling_bases
 from gazelle.engines.planar.rolling import Joints
@@ -168,6 +169,19 @@ class PlanarState:
         """Return the columns of a joint."""
         first, count = _look_up("joint", joint, self.layout.joints)
         return slice(first, first + count)
+
+    def poses(self, body: Indices, leans: Floats, worlds: Worlds | None) -> tuple[Floats, Floats]:
+        """Return poses of bodies, shapes (n, bodies, 3) and (n, bodies, 4).
+
+        Args:
+            body: Their indices, shape (bodies,).
+            leans: Turns before their headings, shape (bodies, 4).
+            worlds: Worlds; all if None.
+        """
+        some = np.arange(self.fleet.nworld) if worlds is None else worlds
+        rows = some[:, None] * self.fleet.nbody + body
+        at, turned = poses_of(self.fleet.bodies, rows.reshape(-1), leans)
+        return at.reshape(*rows.shape, 3), turned.reshape(*rows.shape, 4)
 
     def rows(self, body: int, worlds: Worlds | None) -> slice | NDArray[np.intp]:
         """Return rows of a body in the fleet's tables."""

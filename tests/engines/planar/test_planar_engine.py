@@ -291,9 +291,20 @@ def test_the_pose_in_one_world_is_to_the_bit_that_among_many(tilt):
     row.set_placement(np.column_stack((yaw, 2 * yaw, yaw)), from_yaw(yaw))
     many = row.placement()
     for world in range(5):
-        one = row.placement(np.array([world]))
+        one, several = row.placement(np.array([world])), engine.models["box",]
+        assert row.pose(world) == one.first()
+        assert several.placement(np.array([world])).quaternion.tobytes() == one.quaternion.tobytes()
         assert one.position.tobytes() == many.position[world].tobytes()
         assert one.quaternion.tobytes() == many.quaternion[world].tobytes()
         alone.set_placement(many.position[world], many.quaternion[world])
         assert alone.placement().quaternion.shape == (1, 4)
         np.testing.assert_allclose(alone.placement().quaternion[0], many.quaternion[world])
+
+
+def test_a_world_that_there_is_not_has_no_pose():
+    row = make_engine("planar", scenes.world(scenes.box()), 2).models["box"]
+    for worlds in ([2], [0, -3]):
+        with pytest.raises(IndexError):
+            row.placement(np.array(worlds))
+    with pytest.raises(IndexError):
+        row.pose(2)

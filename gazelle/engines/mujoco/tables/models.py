@@ -56,6 +56,10 @@ class MujocoModelRow:
         position = link.position + rotate(link.quaternion, offset[0])
         return Placement(position, multiply(link.quaternion, offset[1]))
 
+    def pose(self, world: int) -> Pose:
+        """Return the pose of the model's frame in one world."""
+        return self.placement(np.array((world,))).first()
+
     def planar_pose(self, worlds: Worlds | None = None) -> Floats:
         """Return the pose seen from above: x, y [m] and heading [rad], shape (n, 3)."""
         first = self._freely.within(self._run.known())

@@ -19,7 +19,7 @@ from gazelle.engines.planar.tables.models import PlanarModelRow
 from gazelle.engines.planar.unsupported import refuse
 from gazelle.engines.planar.worlds import PlanarState, rows_of
 from gazelle.engines.table import Lookup
-from gazelle.rotations import conjugate, cross, from_yaw, multiply, rotate, unit
+from gazelle.rotations import conjugate, cross, multiply, rotate, unit
 
 
 class PlanarLinkRow:
@@ -219,12 +219,11 @@ class PlanarLinkRows:
 
     def _base(self, worlds: Worlds | None) -> Placement:
         """Return the poses of the models' frames, shapes (n, links, 3) and (n, links, 4)."""
-        columns, fleet = self._columns.within(self._run.layout), self._run.fleet
-        bodies = fleet.body_rows[rows_of(worlds)][:, columns.body]
-        at = np.repeat(columns.base.position[None], len(bodies), axis=0)
-        turned = np.repeat(columns.base.quaternion[None], len(bodies), axis=0)
-        at[:, columns.moving] = bodies[..., [c.X, c.Y, c.Z]]
-        turned[:, columns.moving] = multiply(from_yaw(bodies[..., c.YAW]), columns.tilts[None])
+        columns = self._columns.within(self._run.layout)
+        poses = self._run.poses(columns.body, columns.tilts, worlds)
+        at = np.repeat(columns.base.position[None], len(poses[0]), axis=0)
+        turned = np.repeat(columns.base.quaternion[None], len(poses[0]), axis=0)
+        at[:, columns.moving], turned[:, columns.moving] = poses
         return Placement(at, turned)
 
     def _twist(self, worlds: Worlds | None) -> Motion:

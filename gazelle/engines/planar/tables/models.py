@@ -13,6 +13,7 @@ from gazelle.description import Pose
 from gazelle.engines.motion import Placement
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.body_conversion import ConvertedModel
+from gazelle.engines.planar.body_poses import pose_of
 from gazelle.engines.planar.layout import PlanarLayout
 from gazelle.engines.planar.paths import PathFollower
 from gazelle.engines.planar.twist_commands import TwistCommands
@@ -21,7 +22,7 @@ from gazelle.engines.table import Lookup
 from gazelle.errors import EngineError
 from gazelle.native.paths import ModelPath
 from gazelle.native.system import System
-from gazelle.rotations import conjugate, from_yaw, multiply, product_of, yaw_of
+from gazelle.rotations import conjugate, multiply, yaw_of
 
 _SAME = 1e-12  # how far components of quaternions may be apart to be taken as equal
 
@@ -51,18 +52,20 @@ class PlanarModelRow:
                 np.tile(pose.position, (count, 1)), np.tile(pose.quaternion, (count, 1))
             )
         if count == 1:
-            return self._placement_of_one(each, body, 0 if worlds is None else int(worlds[0]))
-        rows = self._run.fleet.rows[self._run.rows(body, worlds)]
-        turned = multiply(from_yaw(rows[:, c.YAW]), np.asarray(each.tilt.quaternion)[None])
-        return Placement(rows[:, [c.X, c.Y, c.Z]], turned)
+            one = self.pose(0 if worlds is None else int(worlds[0]))
+            return Placement(np.array((one.position,)), np.array((one.quaternion,)))
+        lean = np.array((each.tilt.quaternion,))
+        at, turned = self._run.poses(np.array((body,)), lean, worlds)
+        return Placement(at[:, 0], turned[:, 0])
 
-    def _placement_of_one(self, each: ConvertedModel, body: int, world: int) -> Placement:
-        """Return the pose in one world, to the bit, without the overhead of arrays."""
-        row = self._run.fleet.rows[world * self._run.fleet.nbody + body].tolist()
-        half = row[c.YAW] / 2.0
-        turn = 0.0, 0.0, float(np.sin(half)), float(np.cos(half))
-        turned = product_of(turn, each.tilt.quaternion)
-        return Placement(np.array(((row[c.X], row[c.Y], row[c.Z]),)), np.array((turned,)))
+    def pose(self, world: int) -> Pose:
+        """Return the pose of the model's frame in one world."""
+        each, body = self._place.within(self._run.layout)
+        if body is None:
+            return each.model.pose
+        fleet = self._run.fleet
+        row = world * fleet.nbody + body
+        return Pose.exactly(*pose_of(fleet.bodies, row, each.tilt.quaternion))
 
     def planar_pose(self, worlds: Worlds | None = None) -> Floats:
         """Return the pose seen from above: x, y [m] and heading [rad], shape (n, 3)."""
@@ -218,12 +221,11 @@ class PlanarModelRows:
     def placement(self, worlds: Worlds | None = None) -> Placement:
         """Return the poses of the models' frames, shapes (n, models, 3) and (n, models, 4)."""
         columns = self._columns.within(self._run.layout)
-        rows, which = self._run.fleet.body_rows[rows_of(worlds)], np.flatnonzero(columns.body >= 0)
-        at = np.repeat(columns.at[None], len(rows), axis=0)
-        turned = np.repeat(columns.turned[None], len(rows), axis=0)
-        bodies = rows[:, columns.body[which]]
-        at[:, which] = bodies[..., [c.X, c.Y, c.Z]]
-        turned[:, which] = multiply(from_yaw(bodies[..., c.YAW]), columns.tilts[None, which])
+        which = np.flatnonzero(columns.body >= 0)
+        poses = self._run.poses(columns.body[which], columns.tilts[which], worlds)
+        at = np.repeat(columns.at[None], len(poses[0]), axis=0)
+        turned = np.repeat(columns.turned[None], len(poses[0]), axis=0)
+        at[:, which], turned[:, which] = poses
         return Placement(at, turned)
 
     def set_ground_motion(self, twist: ArrayLike, worlds: Worlds | None = None) -> None:
