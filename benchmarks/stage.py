@@ -40,7 +40,7 @@ SIZES = (
 )
 RIVALS = 1_000  # robots up to which Stage itself runs, unless it is asked for alone
 BATCHES = (64, 1024, 4096)
-PARTS = ("rival", "fleets", "growth", "batches", "worlds", "graph")
+PARTS = ("rival", "fleets", "growth", "batches", "worlds", "reads", "graph")
 
 
 def main() -> None:
@@ -65,14 +65,24 @@ def main() -> None:
         _stage_growth.growth(SENSORS, args.largest, args.threads, goals)
     if args.only in {None, "batches"}:
         batches(args, goals)
-    if args.only in {None, "worlds", "graph"}:
+    files(args, goals)
+    goals.show()
+
+
+def files(args: argparse.Namespace, goals: Goals) -> None:
+    """Measure Stage files: stepped and scanned, read robot by robot, and on a ROS graph."""
+    if args.only in {None, "worlds"}:
         import _stage_worlds
 
-        if args.only != "graph":
-            _stage_worlds.worlds(args.threads, args.worlds, goals)
-        if args.only != "worlds":
-            _stage_worlds.graph(goals)
-    goals.show()
+        _stage_worlds.worlds(args.threads, args.worlds, goals)
+    if args.only in {None, "reads"}:
+        import _stage_reads
+
+        _stage_reads.reads(args.threads, goals)
+    if args.only in {None, "graph"}:
+        import _stage_worlds
+
+        _stage_worlds.graph(goals)
 
 
 def rival(args: argparse.Namespace, goals: Goals) -> None:

@@ -87,8 +87,8 @@ class SampledSensor:
 
         The first call measures at once and wakes the sensor.
         """
-        values = self._woken()[one_world(world, self._lock.nworld)]
-        return self._model.reading(values, self._stamp)
+        values = self._woken()
+        return self._model.reading(values[one_world(world, len(values))], self._stamp)
 
     @between_steps
     def latest(self) -> NDArray[Any]:
@@ -110,9 +110,11 @@ class SampledSensor:
         return self._current()
 
     def _current(self) -> NDArray[Any]:
-        if not self.awake:
+        if not (self._awake or self._listeners):
             return self.measure()
-        self._catch_up()
+        group = self._group
+        if group is not None and self._seen != group.count:
+            self._catch_up()
         if self._values is None:
             return self.update(self._simulation.clock.now_ns)
         if len(self._stale):
