@@ -82,9 +82,14 @@ class PieceMerger:
         Args:
             reach: Distance between boxes that counts as none [m].
         """
-        count = self.scan(np.zeros((0, 2), np.intp), reach)
+        nothing = cython.declare(cython.Py_ssize_t[:, ::1], np.zeros((0, 2), np.intp))
+        near = cython.declare(cython.double, reach)
+        with cython.nogil:
+            count = self.scan(nothing, near)
         pairs = np.zeros((count, 2), np.intp)
-        self.scan(pairs, reach)
+        found = cython.declare(cython.Py_ssize_t[:, ::1], pairs)
+        with cython.nogil:
+            self.scan(found, near)
         return pairs
 
     def scan(self, pairs: Indices, reach: float) -> int:
