@@ -17,5 +17,6 @@ def with_profile(world: World, profile: Physics) -> World:
 
 
 def laws_of(world: World) -> tuple[Physics, Vector3, Vector3]:
-    """Return the laws that move bodies: physics profile, gravity and magnetic field."""
-    return world.profile, world.gravity, world.magnetic_field
+    """Return the laws that move bodies: physics profile without its pace, gravity, magnetic field."""
+    profile = replace(world.profile, real_time_factor=1.0, real_time_update_rate=0.0)
+    return profile, world.gravity, world.magnetic_field

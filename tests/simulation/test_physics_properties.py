@@ -52,6 +52,15 @@ def test_every_physics_property_can_be_read_and_set():
             setattr(physics, name, 7)  # nothing new, nothing said
 
 
+def test_another_pace_compiles_no_other_model():
+    with Simulation(scenes.world(scenes.ball())) as sim:
+        before = sim.engine.revision
+        sim.physics.set(update_rate=0.0, real_time_factor=3.0)
+        assert sim.engine.revision == before
+        sim.physics.iterations = 30
+        assert sim.engine.revision > before
+
+
 def test_friction_is_the_same_in_all_directions_on_a_cone_and_on_a_pyramid():
     def slid(model, slope):
         pull = 9.8 * slope / math.sqrt(2.0)  # down it, between x and y; mu is 0.5
