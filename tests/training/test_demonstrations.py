@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import dataclasses
 
 import numpy as np
@@ -151,7 +152,24 @@ def test_the_first_steps_are_remembered_until_they_are_overwritten(env):
     left = memory.observations[5:10].reshape(20, -1)
     for row in memory.sample_first(50, 10).observations.numpy():
         assert (np.abs(left - row).max(axis=1) == 0.0).any()
-    assert learnt(env, given, 240).replay_buffer.sample_first(50, 10) is None
+    for steps in (240, 400, 420):  # 420: the rows of the first steps are overwritten again
+        assert learnt(env, given, steps).replay_buffer.sample_first(50, 10) is None
+
+
+def test_more_first_steps_than_are_remembered_are_those_that_are_left(env):
+    given = recipe(None, buffer_size=200, learning_starts=10_000)
+    memory = learnt(env, given, 220).replay_buffer  # 55 rows, of which 50 are left
+    rows = np.unique(
+        [
+            np.flatnonzero((memory.observations == row).all(axis=2).any(axis=1))
+            for row in memory.sample_first(500, 53).observations.numpy()
+        ]
+    )
+    assert set(rows) == {0, 1, 2, *range(5, 50)}
+    again, state = copy.copy(memory), memory.get_state()
+    again.added = 0
+    again.set_state(state)
+    assert again.added == 55
 
 
 @pytest.mark.long
