@@ -14,7 +14,6 @@ runs this source the same is true between two calls, which is why the queue is r
 from __future__ import annotations
 
 import functools
-import inspect
 from _thread import allocate_lock
 from collections import deque
 from collections.abc import Callable
@@ -32,7 +31,6 @@ if not cython.compiled:
 
 # How often a waiting thread checks that the owner can ever answer it [s]. A turn wakes it.
 _LOOK: float = 0.25
-_VARIABLE = inspect.CO_VARARGS | inspect.CO_VARKEYWORDS
 
 
 def _wait_on(owner: int) -> None:
@@ -219,35 +217,15 @@ class FairLock:
 
 def locked(method: Callable[..., Any]) -> Callable[..., Any]:
     """Return a method that holds ``self._lock`` while it calls another; of None it holds nothing."""
-    code = method.__code__
-    if code.co_argcount == 1 and not code.co_kwonlyargcount and not code.co_flags & _VARIABLE:
-        return _locked_getter(method)
 
     @functools.wraps(method)
-    def holding(self: Any, /, *args: Any, **options: Any) -> Any:
-        lock: FairLock | None = self._lock
+    def holding(*args: Any, **options: Any) -> Any:
+        lock: FairLock | None = args[0]._lock if args else None  # noqa: SLF001
         if lock is None or lock.owner == get_ident():
-            return method(self, *args, **options)
+            return method(*args, **options)
         lock._enter()  # noqa: SLF001  its own class
         try:
-            return method(self, *args, **options)
-        finally:
-            lock._drop()  # noqa: SLF001
-
-    return holding
-
-
-def _locked_getter(method: Callable[[Any], Any]) -> Callable[[Any], Any]:
-    """Return ``locked`` of a method without arguments, which saves making an empty tuple and dict."""
-
-    @functools.wraps(method)
-    def holding(self: Any) -> Any:
-        lock: FairLock | None = self._lock
-        if lock is None or lock.owner == get_ident():
-            return method(self)
-        lock._enter()  # noqa: SLF001  its own class
-        try:
-            return method(self)
+            return method(*args, **options)
         finally:
             lock._drop()  # noqa: SLF001
 

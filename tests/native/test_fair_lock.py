@@ -371,3 +371,8 @@ def test_a_locked_method_is_refused_by_a_closed_lock(call):
     with pytest.raises(LookupError):
         call(kept)
     assert kept._lock.owner == 0
+
+
+def test_a_locked_method_needs_its_object():
+    with pytest.raises(TypeError, match="self"):
+        Kept.owner()
