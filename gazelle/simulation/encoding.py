@@ -123,7 +123,7 @@ def _array(value: dict[str, Any]) -> Any:
 
 def _pose(value: dict[str, Any]) -> Pose:
     # Not ``from_quaternion``: normalising again could change the last bit.
-    return Pose.exactly(tuple(value["position"]), tuple(value["quaternion"]))
+    return Pose.exactly(Pose(*value["position"]).position, tuple(value["quaternion"]))
 
 
 _READERS: dict[str, Callable[[dict[str, Any]], Any]] = {

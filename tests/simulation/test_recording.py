@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from gazelle.description import Mesh, Pose
 from gazelle.engines import Call, DivergenceError
-from gazelle.errors import Error, SimulationError, SimulationWarning
+from gazelle.errors import Error, FormatError, SimulationError, SimulationWarning
 from gazelle.simulation import Replay, Simulation
 from gazelle.simulation.encoding import decode, encode
 
@@ -293,6 +293,8 @@ def test_what_nobody_wrote_is_refused():
         decode({"#": "os.system"})
     with pytest.raises(SimulationError, match="objects"):
         decode({"#": "array", "type": "|O", "shape": [1], "data": ""})
+    with pytest.raises(FormatError, match="a pose takes"):
+        decode({"#": "pose", "position": ["a", 0.0, 0.0], "quaternion": [0.0, 0.0, 0.0, 1.0]})
 
 
 def test_a_recording_does_not_tell_where_steps_were_cut_for_the_sake_of_others(tmp_path):
