@@ -13,6 +13,7 @@ _MEASURED = (
     "gazelle",
     "packages",
     "benchmarks",
+    "examples",
     "setup.py",
     "constraints.txt",
     ":!gazelle/training/claims.yaml",

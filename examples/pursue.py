@@ -1,7 +1,9 @@
 """A task of your own: a burger catches another one, which turns away from it.
 
-gazelle train examples/pursue.py:my/Pursue-v0
-gazelle eval runs/Pursue-* --import examples/pursue.py
+    gazelle train examples/pursue.py:my/Pursue-v0
+    gazelle eval runs/Pursue-* --import examples/pursue.py
+
+The other one is slower, but leads the way.
 """
 
 from __future__ import annotations
