@@ -82,12 +82,13 @@ def _weld(corners: NDArray[np.float64]) -> Triangles:
     if not len(corners):
         return corners, np.empty((0, 3), np.int32)
     corners = corners + 0.0  # -0.0 is 0.0
-    keys = np.ascontiguousarray(corners).view(np.dtype((np.void, 24))).ravel()
-    _, first, inverse = np.unique(keys, return_index=True, return_inverse=True)
-    order = np.argsort(first, kind="stable")
-    rank = np.empty_like(order)
-    rank[order] = np.arange(len(order))
-    return corners[first[order]], rank[inverse].reshape(-1, 3).astype(np.int32)
+    order = np.lexsort(corners.T)
+    ordered = corners[order]
+    begins = np.append(True, (ordered[1:] != ordered[:-1]).any(axis=1))
+    vertices = np.sort(order[begins])
+    uses = np.empty_like(order)
+    uses[order] = np.searchsorted(vertices, order[begins])[np.cumsum(begins) - 1]
+    return corners[vertices], uses.reshape(-1, 3).astype(np.int32)
 
 
 def _is_number(word: bytes) -> bool:

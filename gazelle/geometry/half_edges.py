@@ -21,6 +21,12 @@ def half_edges(faces: Indices) -> Indices:
     return np.stack([faces.ravel(), np.roll(faces, -1, axis=1).ravel()], axis=1)
 
 
+def edge_keys(one: Indices, other: Indices, count: int) -> Indices:
+    """Return a number of each edge between two points of so many, the same both ways, shape (n,)."""
+    keys: Indices = np.minimum(one, other) * np.int64(count) + np.maximum(one, other)
+    return keys
+
+
 def half_edge_twins(points: Floats, faces: Indices) -> Indices:
     """Return the half-edge that runs back along each, shape (3 m,); -1 if there is none.
 
@@ -65,7 +71,7 @@ def _by_edge(edges: Indices, count: int) -> tuple[Indices, Indices, Indices]:
         edges: Tail and head of each, shape (n, 2).
         count: Number of points.
     """
-    keys = edges.min(axis=1) * np.int64(count) + edges.max(axis=1)
+    keys = edge_keys(edges[:, 0], edges[:, 1], count)
     order = np.argsort(keys, kind="stable")
     starts = np.flatnonzero(np.diff(keys[order], prepend=-1))
     return order, starts, np.diff(np.append(starts, len(keys)))

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from gazelle.array_types import Bools, Floats, Indices
-from gazelle.geometry.half_edges import half_edge_twins, half_edges
+from gazelle.geometry.half_edges import edge_keys, half_edge_twins, half_edges
 
 _ROUNDS = 20
 """Rounds of flips; each corner of several on one line takes one."""
@@ -34,7 +34,7 @@ def flip_slivers(points: Floats, faces: Indices, width: float) -> Indices:
         twins = half_edge_twins(points, faces)
         back = twins[3 * slivers + longest[slivers]]
         slivers, back = slivers[back >= 0], back[back >= 0]
-        if not _flip(points, faces, slivers, longest[slivers], back, width):
+        if not len(back) or not _flip(points, faces, slivers, longest[slivers], back, width):
             break
     return faces
 
@@ -60,8 +60,9 @@ def _flip(
     along = np.linalg.norm(points[b] - points[a], axis=1)
     ends = np.linalg.norm(points[np.stack([a, a, b, b])] - points[np.stack([c, d, c, d])], axis=2)
     shorter = (behind <= width) & (ends.max(axis=0) < along)
-    edges = np.sort(half_edges(faces), axis=1)
-    taken = _among(np.sort(np.stack([c, d], axis=1), axis=1), edges, len(points))
+    edges = half_edges(faces)
+    keys = edge_keys(edges[:, 0], edges[:, 1], len(points))
+    taken = _among(edge_keys(c, d, len(points)), keys)
     better = (least > np.minimum(before, behind)) | shorter
     rows = np.flatnonzero(better & (c != d) & ~taken)
     rows = rows[_apart(slivers[rows], other[rows], len(faces))]
@@ -85,10 +86,14 @@ def _heights(points: Floats, faces: Indices) -> tuple[Floats, Indices]:
     lengths = np.linalg.norm(ways, axis=2)
     longest = lengths.argmax(axis=1)
     doubled = np.linalg.norm(np.cross(ways[:, 0], ways[:, 1]), axis=1)
-    return doubled / np.maximum(lengths.max(axis=1), 1e-300), longest
+    most = np.maximum(np.maximum(lengths[:, 0], lengths[:, 1]), lengths[:, 2])
+    return doubled / np.maximum(most, 1e-300), longest
 
 
-def _among(edges: Indices, others: Indices, count: int) -> Bools:
-    """Return which edges are among others."""
-    ours, theirs = (rows[:, 0] * np.int64(count) + rows[:, 1] for rows in (edges, others))
-    return np.asarray(np.isin(ours, theirs))
+def _among(keys: Indices, others: Indices) -> Bools:
+    """Return which of a few numbers are among many others."""
+    ordered = np.unique(keys)
+    place = np.minimum(np.searchsorted(ordered, others), len(ordered) - 1)
+    found = np.zeros(len(ordered), bool)
+    found[place[ordered[place] == others]] = True
+    return np.asarray(found[np.searchsorted(ordered, keys)])

@@ -42,7 +42,8 @@ class WeldedSurface:
     @cached_property
     def size(self) -> float:
         """Diagonal of the bounding box [m]."""
-        return float(np.linalg.norm(np.ptp(self.vertices[self.faces].reshape(-1, 3), axis=0)))
+        used = self.vertices.T[:, self.faces.ravel()]
+        return float(np.linalg.norm(np.ptp(used, axis=1)))
 
     @cached_property
     def twins(self) -> Indices:
@@ -96,7 +97,8 @@ def clean(vertices: Floats, faces: NDArray[np.int32]) -> WeldedSurface:
     _, first, inverse = np.unique(keys, return_index=True, return_inverse=True)
     points = corners[first]
     welded = inverse.reshape(-1, 3).astype(np.intp)
-    welded = welded[(np.diff(np.sort(welded, axis=1), axis=1) > 0).all(axis=1)]
+    a, b, c = welded.T
+    welded = welded[(a != b) & (b != c) & (c != a)]
     welded = flip_slivers(points, _single(points, welded), _SLIVER * step)
     normals, doubled = _normals(points, welded)
     real = doubled > step * step
@@ -187,9 +189,9 @@ def components(surface: WeldedSurface) -> Indices:
     """
     label = np.arange(len(surface.faces))
     twins = surface.twins.reshape(-1, 3)
-    beside = np.where(twins >= 0, twins // 3, label[:, None])
+    a, b, c = np.where(twins >= 0, twins // 3, label[:, None]).T.copy()
     while True:  # each face takes the least label around it, and that label's own label
-        least = np.minimum(label, label[beside].min(axis=1))
+        least = np.minimum(label, np.minimum(np.minimum(label[a], label[b]), label[c]))
         after = label.copy()
         np.minimum.at(after, label, least)
         after = after[np.minimum(after, least)]

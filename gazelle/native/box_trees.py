@@ -61,7 +61,9 @@ class BoxTree:
         self._children = np.full((2 * size - 1, 2), -1, np.int32)
         self._leaf, self._depth = np.full((2, 2 * size - 1), -1, np.int32)
         self._count = 0
-        self._grow(0, size, 0)
+        count: cython.int = size
+        with cython.nogil:
+            self._grow(0, count, 0)
 
     @property
     def bounds(self) -> Floats:
@@ -84,6 +86,8 @@ class BoxTree:
         return np.asarray(self._depth)
 
     @cython.cfunc
+    @cython.nogil
+    @cython.exceptval(check=False)
     def _grow(self, first: cython.int, last: cython.int, level: cython.int) -> cython.int:
         """Add the node of some boxes, and all below it; returns its number."""
         node: cython.int = self._count
@@ -99,6 +103,7 @@ class BoxTree:
         return node
 
     @cython.cfunc
+    @cython.nogil
     @cython.exceptval(check=False)
     def _enclose(self, first: cython.int, last: cython.int, node: cython.int) -> cython.void:
         """Write the box around some boxes."""
@@ -117,6 +122,7 @@ class BoxTree:
             self._bounds[node, 3 + side] = 0.5 * (self._high[side] - self._low[side])
 
     @cython.cfunc
+    @cython.nogil
     @cython.exceptval(check=False)
     def _split(self, first: cython.int, last: cython.int, level: cython.int) -> cython.int:
         """Partition boxes into left and right; returns where the right part starts."""
@@ -136,6 +142,7 @@ class BoxTree:
         return middle
 
     @cython.cfunc
+    @cython.nogil
     @cython.exceptval(check=False)
     def _endless(self, first: cython.int, last: cython.int) -> cython.int:
         """Move endless boxes to the left.
@@ -158,6 +165,7 @@ class BoxTree:
         return first + found
 
     @cython.cfunc
+    @cython.nogil
     @cython.exceptval(check=False)
     def _cheapest(
         self, first: cython.int, last: cython.int, axis: cython.int, level: cython.int
@@ -183,6 +191,7 @@ class BoxTree:
         return middle
 
     @cython.cfunc
+    @cython.nogil
     @cython.exceptval(check=False)
     def _begin(self, axis: cython.int, place: cython.int) -> cython.void:
         """Reset the growing box to empty at a place."""
@@ -192,6 +201,7 @@ class BoxTree:
             self._low[side] = self._high[side] = self._boxes[box, side]
 
     @cython.cfunc
+    @cython.nogil
     @cython.exceptval(check=False)
     def _with(self, axis: cython.int, place: cython.int) -> cython.double:
         """Extend the growing box by the one at a place; returns half its surface."""
@@ -210,6 +220,7 @@ class BoxTree:
         return x * y + y * z + z * x
 
     @cython.cfunc
+    @cython.nogil
     @cython.exceptval(check=False)
     def _divide(self, first: cython.int, last: cython.int) -> cython.void:
         """Move the boxes of the left part to the left, in all three orders."""
