@@ -1,6 +1,6 @@
 """A task of your own: a waffle follows a line on the floor by what its camera sees.
 
-    gazelle train examples/follow_line.py:my/FollowLine-v0 --steps 100000
+    gazelle train examples/follow_line.py:my/FollowLine-v0
     gazelle eval runs/FollowLine-* --import examples/follow_line.py
 
 The robot drives on at one speed; the policy only steers.

@@ -6,11 +6,13 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import gymnasium as gym
+from gymnasium.vector import VectorEnv
 
 from gazelle.envs.dict_rows import DictRows
 from gazelle.training.goal_replay import goal_replay
 from gazelle.training.importing import TaskModule, load_all
-from gazelle.training.recipes import GOALS, RECIPES, Recipe, recipe_for, task_name
+from gazelle.training.picture_layers import is_picture
+from gazelle.training.recipes import GOALS, PICTURES, RECIPES, Recipe, recipe_for, task_name
 from gazelle.training.tasks import entry_class, find_task, make_task, split_module
 
 _REWARD = "compute_reward"
@@ -23,10 +25,12 @@ def task_recipe(
     imports: Sequence[str | TaskModule] = (),
     options: Mapping[str, Any] | None = None,
 ) -> Recipe:
-    """Return the recipe of a task: its own, or the one for tasks with goals, or the one for any.
+    """Return the recipe of a task: its own, or the one for goals, for pictures or for any task.
 
     A task without a recipe whose environments have goals, a ``compute_reward`` and continuous
-    actions is trained with hindsight, as a reward at the goal alone hardly teaches others.
+    actions is trained with hindsight, as a reward at the goal alone hardly teaches others. One
+    that observes a picture is trained for fewer steps, which cost more. One environment is made
+    to find out.
 
     Args:
         task: As `gazelle.training.train` takes it.
@@ -39,14 +43,10 @@ def task_recipe(
     """
     module, bare = split_module(task)
     load_all([*imports, *([] if module is None else [module])])
-    if algo is not None or _has_own(bare):
+    if algo not in (None, "ppo") or _has_own(bare):
         return recipe_for(bare, algo)
     found = find_task(bare)
-    if _has_own(found):
-        return recipe_for(found)
-    return (
-        GOALS if _may_have_goals(found) and _has_goals(found, options or {}) else recipe_for(bare)
-    )
+    return recipe_for(found, algo) if _has_own(found) else _fitting(found, algo, options or {})
 
 
 def listed_recipe(task: str) -> Recipe:
@@ -60,24 +60,22 @@ def _has_own(task: str) -> bool:
     return task_name(task).removesuffix("Continuous") in RECIPES
 
 
-def _may_have_goals(task: str) -> bool:
-    """Return whether the task may have goals: False where its classes exclude it."""
-    entries = [entry_class(task, vector=vector) for vector in (True, False)]
-    return any(
-        each is not None and (not isinstance(each, type) or hasattr(each, _REWARD))
-        for each in entries
-    )
-
-
-def _has_goals(task: str, options: Mapping[str, Any]) -> bool:
-    """Return whether an environment of the task has all that hindsight needs."""
+def _fitting(task: str, algo: str | None, options: Mapping[str, Any]) -> Recipe:
+    """Return the recipe for what an environment of the task observes."""
     env = make_task(task, 1, **options)
     try:
-        space = env.single_observation_space
-        continuous = isinstance(env.single_action_space, gym.spaces.Box)
-        if not continuous or not isinstance(space, gym.spaces.Dict):
-            return False
-        boxes = all(isinstance(part, gym.spaces.Box) for part in space.spaces.values())
-        return boxes and goal_replay(env, DictRows(space)) is not None
+        if algo is None and _has_goals(env):
+            return GOALS
+        return PICTURES if is_picture(env.single_observation_space) else recipe_for(task)
     finally:
         env.close()
+
+
+def _has_goals(env: VectorEnv[Any, Any, Any]) -> bool:
+    """Return whether an environment has all that hindsight needs."""
+    space = env.single_observation_space
+    continuous = isinstance(env.single_action_space, gym.spaces.Box)
+    if not continuous or not isinstance(space, gym.spaces.Dict):
+        return False
+    boxes = all(isinstance(part, gym.spaces.Box) for part in space.spaces.values())
+    return boxes and goal_replay(env, DictRows(space)) is not None

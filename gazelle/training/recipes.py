@@ -67,6 +67,9 @@ _DEFAULT = Recipe(
     settings=PPOSettings(n_steps=32, batch_size=256, n_epochs=6, scale_rewards=True),
 )
 
+PICTURES = dataclasses.replace(_DEFAULT, steps=100_000)
+"""For tasks that observe a picture: to render one takes longer than a step of most tasks."""
+
 # Small networks, a step size that stays, a target that follows quickly: goals are few steps away.
 _FETCH_REACH = Recipe(
     algo="ddpg",

@@ -68,11 +68,8 @@ def test_a_benchmark_measures_the_task_of_a_file(benchmark, monkeypatch, options
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("file", "steps"),
-    [(file, 100_000 if file == "follow_line" else None) for file in TASKS],
-)
-def test_a_users_task_learns_with_the_default(tmp_path, file, steps):
-    result = train(task_of(file), out=tmp_path, steps=steps, seed=1)
+@pytest.mark.parametrize("file", TASKS)
+def test_a_users_task_learns_with_the_default(tmp_path, file):
+    result = train(task_of(file), out=tmp_path, seed=1)
     found = evaluate(result.run.folder, episodes=300, imports=[EXAMPLES / f"{file}.py"])
     assert found.success.interval[0] > 0.9

@@ -12,7 +12,7 @@ import slider_task
 from gazelle.cli.main import main
 from gazelle.errors import TaskError
 from gazelle.training import RECIPES, Run, evaluate, listed_recipe, recipe_for, task_recipe, train
-from gazelle.training.recipes import GOALS
+from gazelle.training.recipes import GOALS, PICTURES
 
 
 class Anybodys(gym.Env):
@@ -44,10 +44,18 @@ class WithoutReward(Anybodys):
 
 
 class Never(gym.Env):
-    """Not to be made in order to know that it has no goals."""
+    """Not to be made in order to be listed."""
 
     def __init__(self):
         raise AssertionError
+
+
+class Seeing(Anybodys):
+    """It observes a picture."""
+
+    def __init__(self):
+        super().__init__()
+        self.observation_space = gym.spaces.Box(0, 255, (20, 20, 3), np.uint8)
 
 
 def by_function(actions=2):
@@ -59,6 +67,7 @@ gym.register("test/Discrete-v0", Anybodys, kwargs={"actions": 0})
 gym.register("test/ByFunction-v0", by_function)
 gym.register("test/WithoutReward-v0", WithoutReward)
 gym.register("test/Never-v0", Never)
+gym.register("test/Seeing-v0", Seeing)
 
 
 @pytest.mark.parametrize(
@@ -69,9 +78,16 @@ def test_goals_are_learnt_with_hindsight(task):
     assert GOALS.hindsight > 0.5
 
 
-@pytest.mark.parametrize("task", ["test/Discrete-v0", "test/WithoutReward-v0", "test/Never-v0"])
+@pytest.mark.parametrize("task", ["test/Discrete-v0", "test/WithoutReward-v0"])
 def test_others_are_not(task):
     assert task_recipe(task) == recipe_for("Unknown")
+
+
+@pytest.mark.parametrize("algo", [None, "ppo"])
+def test_pictures_are_learnt_from_in_fewer_steps(algo):
+    assert task_recipe("test/Seeing-v0", algo) == PICTURES
+    assert PICTURES.steps < recipe_for("Unknown").steps
+    assert task_recipe("test/Anybodys-v0", "ppo") == recipe_for("Unknown")
 
 
 def test_options_of_the_environment_count():
