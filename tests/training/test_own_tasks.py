@@ -71,5 +71,5 @@ def test_a_benchmark_measures_the_task_of_a_file(benchmark, monkeypatch, options
 @pytest.mark.parametrize("file", TASKS)
 def test_a_users_task_learns_with_the_default(tmp_path, file):
     result = train(task_of(file), out=tmp_path, seed=1)
-    found = evaluate(result.run.folder, episodes=300, imports=[EXAMPLES / f"{file}.py"])
+    found = evaluate(result.run.folder, episodes=300, imports=[str(EXAMPLES / f"{file}.py")])
     assert found.success.interval[0] > 0.9
