@@ -120,11 +120,11 @@ GOALS = Recipe(
 """For tasks with goals that have no recipe of their own, see `gazelle.training.recipe_choice`."""
 
 
-def _shown_fetch(task: str, steps: int) -> Recipe:
+def _shown_fetch(task: str, steps: int, batch_size: int) -> Recipe:
     """Return the recipe of a task that needs demonstrations: 256 episodes."""
     settings = dataclasses.replace(
         _GOAL_SETTINGS,
-        batch_size=512,
+        batch_size=batch_size,
         learning_starts=12_800,
         gradient_steps=2,
         tau=0.1,
@@ -200,9 +200,9 @@ RECIPES: dict[str, Recipe] = {
     **{
         f"Fetch{task}{reward}": recipe
         for task, recipe in (
-            ("Push", _shown_fetch("push", 400_000)),
-            ("PickAndPlace", _shown_fetch("pick_and_place", 200_000)),
-            ("Slide", _shown_fetch("push", 400_000)),
+            ("Push", _shown_fetch("push", 400_000, 256)),
+            ("PickAndPlace", _shown_fetch("pick_and_place", 200_000, 512)),
+            ("Slide", _shown_fetch("push", 400_000, 256)),
         )
         for reward in ("", "Dense")
     },
