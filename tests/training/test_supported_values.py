@@ -142,7 +142,7 @@ def test_a_recipe_for_another_algorithm_says_that_its_demonstrator_is_left_out(a
 
 
 def test_what_is_heeded_is_kept():
-    own = recipe_for("FetchPush").settings
+    own = recipe_for("FetchPickAndPlace").settings
     left = supported_only("sac", own)
     assert left.batch_size == own.batch_size != OffPolicySettings().batch_size
     assert left.demonstrator is None
