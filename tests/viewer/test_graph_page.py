@@ -161,6 +161,7 @@ def test_displays_are_removed_and_added_by_hand(graph):
 def test_layouts_are_saved_and_loaded(graph):
     view = graph.view
     topics = view._displays.topics
+    until(lambda: "/scan" in topics)
     view._displays.remove("/spot")
     view._displays.add("/never", "nav_msgs/Path")
     until(lambda: "/never" in topics and "/spot" not in topics)
@@ -184,9 +185,9 @@ def test_layouts_are_saved_and_loaded(graph):
     graph.choose("Load", "my robot")
     until(lambda: view._panels.titles == ["Plot"])
     until(lambda: "/never" in topics and "/spot" not in topics)
-    assert view._panels.panel("Plot").settings["fields"] == ["/speed/data"]
-    assert view._context.requested_frame == "laser"
-    assert (scan.drawing.style.color, scan.drawing.style.size) == ((10, 200, 20), 0.1)
+    until(lambda: view._panels.panel("Plot").settings["fields"] == ["/speed/data"])
+    until(lambda: view._context.requested_frame == "laser")
+    until(lambda: (scan.drawing.style.color, scan.drawing.style.size) == ((10, 200, 20), 0.1))
     until(lambda: middle(green(graph.pixels()[:, 460:])) is not None)
     graph.fill("Name", "../elsewhere")
     graph.click("Save")
