@@ -65,8 +65,7 @@ class _PresentParts:
         robot = self._simulation.robots.get(model.name)
         if robot is None:
             return model
-        place = robot.placement(self._row)
-        pose = Pose.from_quaternion(tuple(place.position[0]), tuple(place.quaternion[0]))
+        pose = robot.placement(self._row).first()
         if pose.is_close(model.pose):
             pose = model.pose
         return replace(model if model.static else self._model(model, model.name), pose=pose)

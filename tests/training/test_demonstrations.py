@@ -167,9 +167,9 @@ def test_more_first_steps_than_are_remembered_are_those_that_are_left(env):
     )
     assert set(rows) == {0, 1, 2, *range(5, 50)}
     again, state = copy.copy(memory), memory.get_state()
-    again.added = 0
+    again.steps = 0
     again.set_state(state)
-    assert again.added == 55
+    assert again.steps == 55
 
 
 @pytest.mark.long

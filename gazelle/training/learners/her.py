@@ -54,7 +54,6 @@ class HindsightReplayBuffer(MaskedReplayBuffer):
         """The number of the episode of each transition, counted in its copy, modulo the rows."""
         self.ends = np.full(shape, _RUNNING, np.int64)
         """The step after the last one of each episode, by that number and copy."""
-        self.steps = 0
         self.current = np.zeros(self.n_envs, np.int64)
 
     def add(
@@ -69,7 +68,6 @@ class HindsightReplayBuffer(MaskedReplayBuffer):
         """Add one control step of all copies."""
         self.episodes[self.pos] = self.current
         super().add(obs, next_obs, action, reward, done, infos)
-        self.steps += 1
         over = np.flatnonzero(done)
         self.ends[self.current[over], over] = self.steps
         # An episode has a row at least, so a number comes back only after all its rows are gone.
@@ -78,17 +76,12 @@ class HindsightReplayBuffer(MaskedReplayBuffer):
 
     def get_state(self) -> dict[str, Any]:
         """Return the memory as arrays, only as far as it is filled."""
-        return super().get_state() | {
-            "ends": self.ends,
-            "steps": self.steps,
-            "current": self.current,
-        }
+        return super().get_state() | {"ends": self.ends, "current": self.current}
 
     def set_state(self, state: dict[str, Any]) -> None:
         """Restore a memory that `get_state` returned."""
         super().set_state(state)
         self.ends[:], self.current[:] = state["ends"], state["current"]
-        self.steps = int(state["steps"])
 
     def _names(self) -> list[str]:
         return [*super()._names(), "episodes"]

@@ -26,7 +26,7 @@ class MaskedReplayBuffer(ReplayBuffer):  # type: ignore[misc]  # untyped base
         super().__init__(*args, **kwargs)
         self.n_steps, self.gamma = n_steps, gamma
         self.valid = np.ones((self.buffer_size, self.n_envs), dtype=np.bool_)
-        self.added = 0  # control steps, overwritten ones too
+        self.steps = 0  # control steps, overwritten ones too
 
     def add(
         self,
@@ -38,7 +38,7 @@ class MaskedReplayBuffer(ReplayBuffer):  # type: ignore[misc]  # untyped base
         infos: list[dict[str, Any]],
     ) -> None:
         """Add one control step of all copies."""
-        self.added += 1
+        self.steps += 1
         self.valid[self.pos] = [not info.get("reset_step", False) for info in infos]
         super().add(obs, next_obs, action, reward, done, infos)
 
@@ -58,7 +58,7 @@ class MaskedReplayBuffer(ReplayBuffer):  # type: ignore[misc]  # untyped base
             Fewer where some are not valid; None where no such step is in the memory any more, or
             none that was drawn is valid.
         """
-        first, last = max(self.added - self.buffer_size, 0), min(rows, self.added)
+        first, last = max(self.steps - self.buffer_size, 0), min(rows, self.steps)
         if first >= last:
             return None
         drawn = np.random.randint(first, last, size=batch_size)  # noqa: NPY002  # as the parent draws
@@ -86,14 +86,14 @@ class MaskedReplayBuffer(ReplayBuffer):  # type: ignore[misc]  # untyped base
         """Return the memory as arrays, only as far as it is filled."""
         filled = self.buffer_size if self.full else self.pos
         state: dict[str, Any] = {name: getattr(self, name)[:filled] for name in self._names()}
-        return state | {"pos": self.pos, "full": self.full, "added": self.added}
+        return state | {"pos": self.pos, "full": self.full, "steps": self.steps}
 
     def set_state(self, state: dict[str, Any]) -> None:
         """Restore a memory that `get_state` returned."""
         for name in self._names():
             getattr(self, name)[: len(state[name])] = state[name]
         self.pos, self.full = int(state["pos"]), bool(state["full"])
-        self.added = int(state.get("added", self.pos + self.full * self.buffer_size))
+        self.steps = int(state.get("steps", self.pos + self.full * self.buffer_size))
 
     def _names(self) -> list[str]:
         names = ["observations", "next_observations", "actions", "rewards", "dones", "timeouts"]

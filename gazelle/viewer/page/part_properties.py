@@ -101,8 +101,7 @@ def _of_model(context: PageContext, robot: Robot, _name: str) -> Iterator[PartPr
     chosen = context.chosen
 
     def pose() -> Pose:
-        place = robot.placement(chosen)
-        return Pose.from_quaternion(tuple(place.position[0]), tuple(place.quaternion[0]))
+        return robot.placement(chosen).first()
 
     def put(position: Any, rpy: Any) -> None:
         there = Pose(*position, *rpy)
