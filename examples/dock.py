@@ -15,7 +15,7 @@ import numpy as np
 import gazelle
 from gazelle import assets
 from gazelle.array_types import Floats, Floats32, Worlds
-from gazelle.envs import SimulationTask, StepOutcome, TaskEnv, TaskVectorEnv
+from gazelle.envs import SimulationTask, StepOutcome, register_task
 from gazelle.rotations import roll_pitch_yaw
 
 FARTHEST = 2.5  # [m]
@@ -71,22 +71,4 @@ class Dock(SimulationTask):
         return StepOutcome(reward, docked | lost, {"is_success": docked, "is_collision": lost})
 
 
-class DockEnv(TaskEnv):
-    """One dock under Gymnasium."""
-
-    def __init__(self, seed: int | None = None) -> None:
-        """Make the environment."""
-        super().__init__(Dock(1), seed=seed)
-
-
-class DockVectorEnv(TaskVectorEnv):
-    """Many docks under Gymnasium."""
-
-    def __init__(
-        self, num_envs: int = 1, seed: int | None = None, autoreset_mode: str = "SameStep"
-    ) -> None:
-        """Make the environments."""
-        super().__init__(Dock(num_envs), seed=seed, autoreset_mode=autoreset_mode)
-
-
-gym.register("my/Dock-v0", DockEnv, vector_entry_point=DockVectorEnv)
+register_task("my/Dock-v0", Dock)

@@ -16,7 +16,7 @@ from gazelle import assets, formats
 from gazelle.array_types import Bytes, Floats, Worlds
 from gazelle.builders import assemble, ground, slab, sun
 from gazelle.description import World
-from gazelle.envs import SimulationTask, StepOutcome, TaskEnv, TaskVectorEnv
+from gazelle.envs import SimulationTask, StepOutcome, register_task
 from gazelle.envs.cameras import CameraObservation, fit_camera
 
 PIECES = 120
@@ -94,22 +94,4 @@ class FollowLine(SimulationTask):
         return StepOutcome(1.0 - off / LOST, lost, info)
 
 
-class FollowLineEnv(TaskEnv):
-    """One line follower under Gymnasium."""
-
-    def __init__(self, seed: int | None = None) -> None:
-        """Make the environment."""
-        super().__init__(FollowLine(1), seed=seed)
-
-
-class FollowLineVectorEnv(TaskVectorEnv):
-    """Many line followers under Gymnasium."""
-
-    def __init__(
-        self, num_envs: int = 1, seed: int | None = None, autoreset_mode: str = "SameStep"
-    ) -> None:
-        """Make the environments."""
-        super().__init__(FollowLine(num_envs), seed=seed, autoreset_mode=autoreset_mode)
-
-
-gym.register("my/FollowLine-v0", FollowLineEnv, vector_entry_point=FollowLineVectorEnv)
+register_task("my/FollowLine-v0", FollowLine)

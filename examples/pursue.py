@@ -14,7 +14,7 @@ import numpy as np
 import gazelle
 from gazelle import assets
 from gazelle.array_types import Floats, Floats32, Worlds
-from gazelle.envs import SimulationTask, StepOutcome, TaskEnv, TaskVectorEnv
+from gazelle.envs import SimulationTask, StepOutcome, register_task
 
 SPEED = 0.2, 0.12  # of the pursuer and of the other [m/s]
 TURN = 1.5, 0.8  # likewise [rad/s]
@@ -82,22 +82,4 @@ def around(angle: Floats) -> Floats:
     return np.arctan2(np.sin(angle), np.cos(angle))
 
 
-class PursueEnv(TaskEnv):
-    """One pursuit under Gymnasium."""
-
-    def __init__(self, seed: int | None = None) -> None:
-        """Make the environment."""
-        super().__init__(Pursue(1), seed=seed)
-
-
-class PursueVectorEnv(TaskVectorEnv):
-    """Many pursuits under Gymnasium."""
-
-    def __init__(
-        self, num_envs: int = 1, seed: int | None = None, autoreset_mode: str = "SameStep"
-    ) -> None:
-        """Make the environments."""
-        super().__init__(Pursue(num_envs), seed=seed, autoreset_mode=autoreset_mode)
-
-
-gym.register("my/Pursue-v0", PursueEnv, vector_entry_point=PursueVectorEnv)
+register_task("my/Pursue-v0", Pursue)

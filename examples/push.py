@@ -15,7 +15,7 @@ import gazelle
 from gazelle import assets
 from gazelle.array_types import Floats, Floats32, Worlds
 from gazelle.builders import assemble, slab
-from gazelle.envs import SimulationTask, StepOutcome, TaskEnv, TaskVectorEnv
+from gazelle.envs import SimulationTask, StepOutcome, register_task
 
 SIDE = 0.3  # of the box [m]
 THERE = 0.1  # of the box from the origin [m]
@@ -79,22 +79,4 @@ class Push(SimulationTask):
         return StepOutcome(reward, there | lost, {"is_success": there, "is_collision": lost})
 
 
-class PushEnv(TaskEnv):
-    """One box under Gymnasium."""
-
-    def __init__(self, seed: int | None = None) -> None:
-        """Make the environment."""
-        super().__init__(Push(1), seed=seed)
-
-
-class PushVectorEnv(TaskVectorEnv):
-    """Many boxes under Gymnasium."""
-
-    def __init__(
-        self, num_envs: int = 1, seed: int | None = None, autoreset_mode: str = "SameStep"
-    ) -> None:
-        """Make the environments."""
-        super().__init__(Push(num_envs), seed=seed, autoreset_mode=autoreset_mode)
-
-
-gym.register("my/Push-v0", PushEnv, vector_entry_point=PushVectorEnv)
+register_task("my/Push-v0", Push)

@@ -16,7 +16,7 @@ from gazelle import assets
 from gazelle.array_types import Floats, Floats32, Worlds
 from gazelle.builders import cylinder
 from gazelle.description import World
-from gazelle.envs import SimulationTask, StepOutcome, TaskEnv, TaskVectorEnv
+from gazelle.envs import SimulationTask, StepOutcome, register_task
 from gazelle.rotations import rotate
 
 JOINTS = "shoulder_pan_joint", "shoulder_lift_joint", "elbow_joint"
@@ -89,22 +89,4 @@ class ReachAround(SimulationTask):
         return StepOutcome(reward, there, {"is_success": there})
 
 
-class ReachAroundEnv(TaskEnv):
-    """One arm under Gymnasium."""
-
-    def __init__(self, seed: int | None = None) -> None:
-        """Make the environment."""
-        super().__init__(ReachAround(1), seed=seed)
-
-
-class ReachAroundVectorEnv(TaskVectorEnv):
-    """Many arms under Gymnasium."""
-
-    def __init__(
-        self, num_envs: int = 1, seed: int | None = None, autoreset_mode: str = "SameStep"
-    ) -> None:
-        """Make the environments."""
-        super().__init__(ReachAround(num_envs), seed=seed, autoreset_mode=autoreset_mode)
-
-
-gym.register("my/ReachAround-v0", ReachAroundEnv, vector_entry_point=ReachAroundVectorEnv)
+register_task("my/ReachAround-v0", ReachAround)

@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from gazelle.envs.goal_envs import TaskGoalEnv, TaskGoalVectorEnv
     from gazelle.envs.goal_task import GoalSimulationTask
     from gazelle.envs.simulation_task import SimulationTask, StepOutcome
+    from gazelle.envs.task_registration import register_task
 
 __all__ = [
     "ActionRule",
@@ -59,6 +60,7 @@ __all__ = [
     "TaskVectorEnv",
     "Transition",
     "register_all",
+    "register_task",
     "task_ids",
 ]
 
@@ -69,6 +71,7 @@ _HOMES = {
     "StepOutcome": "simulation_task",
     "TaskGoalEnv": "goal_envs",
     "TaskGoalVectorEnv": "goal_envs",
+    "register_task": "task_registration",
 }
 
 

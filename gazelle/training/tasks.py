@@ -140,16 +140,21 @@ def _hint(name: str) -> str:
 
 
 def entry_class(task: str, *, vector: bool) -> object:
-    """Return the entry point of a task's environments, usually a class; None if it has none."""
+    """Return the entry point of a task's environments, usually a class; None if it has none.
+
+    For `gazelle.envs.register_task` it is the class of the task.
+    """
     spec = gym.registry[find_task(task)]
     entry = spec.vector_entry_point if vector else spec.entry_point
-    return load_env_creator(entry) if isinstance(entry, str) else entry
+    entry = load_env_creator(entry) if isinstance(entry, str) else entry
+    return getattr(entry, "registered_task", entry)
 
 
 def evaluation_options(task: str, trained: Mapping[str, Any]) -> dict[str, Any]:
     """Return the options with which a task wants its policies to be evaluated.
 
-    A task says so by a class method or static method ``evaluation_options`` of its environment:
+    A task says so by a class method or static method ``evaluation_options`` of its environment
+    or of its registered class:
     it takes the options that a policy was trained with and returns those that differ, such
     as starts and goals that it was not trained on.
     """

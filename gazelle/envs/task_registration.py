@@ -1,0 +1,97 @@
+"""Registration of a batched task with Gymnasium, as single and as vector environment."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import gymnasium as gym
+from gymnasium.vector import AutoresetMode
+
+from gazelle.envs.batched_task import BatchedTask
+from gazelle.envs.goal_envs import TaskGoalEnv, TaskGoalVectorEnv
+from gazelle.envs.goal_task import GoalSimulationTask
+from gazelle.envs.limits import MAX_ENVS
+from gazelle.envs.options import check_integer
+from gazelle.envs.single_env import TaskEnv
+from gazelle.envs.vector_env import TaskVectorEnv
+
+
+@dataclass(frozen=True, slots=True)
+class SingleEntry:
+    """Entry point of one environment of a task.
+
+    Attributes:
+        registered_task: Makes the task of a number of worlds and options.
+    """
+
+    registered_task: Callable[..., BatchedTask]
+
+    def __call__(
+        self, seed: int | None = None, render_mode: str | None = None, **options: Any
+    ) -> TaskEnv:
+        """Return the environment, with goals where the task has them."""
+        task = self.registered_task(1, **options)
+        if isinstance(task, GoalSimulationTask):
+            return TaskGoalEnv(task, seed=seed, render_mode=render_mode)
+        return TaskEnv(task, seed=seed, render_mode=render_mode)
+
+
+@dataclass(frozen=True, slots=True)
+class VectorEntry:
+    """Entry point of many environments of a task; see `SingleEntry`."""
+
+    registered_task: Callable[..., BatchedTask]
+
+    def __call__(
+        self,
+        num_envs: int = 1,
+        seed: int | None = None,
+        render_mode: str | None = None,
+        autoreset_mode: AutoresetMode | str = AutoresetMode.SAME_STEP,
+        **options: Any,
+    ) -> TaskVectorEnv:
+        """Return the environments."""
+        check_integer("num_envs", num_envs, 1, MAX_ENVS)
+        task = self.registered_task(num_envs, **options)
+        if isinstance(task, GoalSimulationTask):
+            return TaskGoalVectorEnv(
+                task, seed=seed, render_mode=render_mode, autoreset_mode=autoreset_mode
+            )
+        return TaskVectorEnv(
+            task, seed=seed, render_mode=render_mode, autoreset_mode=autoreset_mode
+        )
+
+
+def register_task(task_id: str, task: Callable[..., BatchedTask], **kwargs: Any) -> None:
+    """Register a task with Gymnasium, for ``gymnasium.make``, ``make_vec`` and ``gazelle train``.
+
+    ::
+
+        gazelle.envs.register_task("my/Balance-v0", Balance)
+
+    Environments take ``seed`` and ``render_mode``, vector ones also ``num_envs`` and
+    ``autoreset_mode``; other options go to the task. Those of a `GoalSimulationTask` observe
+    dicts. A class that is registered again, as its file was imported again, replaces the first.
+
+    Args:
+        task_id: As Gymnasium knows it, ``namespace/Name-v0``.
+        task: Class of the task, or a function, called with the number of worlds and options.
+        kwargs: Other arguments of ``gymnasium.register``, such as ``kwargs``, fixed options.
+
+    Raises:
+        gymnasium.error.Error: Gymnasium refuses the id.
+    """
+    if _is_earlier(task_id, task):
+        del gym.registry[task_id]
+    gym.register(task_id, SingleEntry(task), vector_entry_point=VectorEntry(task), **kwargs)
+
+
+def _is_earlier(task_id: str, task: Callable[..., BatchedTask]) -> bool:
+    """Return whether an id is that of a task of the same name."""
+    found = gym.registry[task_id].entry_point if task_id in gym.registry else None
+    if not isinstance(found, SingleEntry):
+        return False
+    names = [getattr(each, "__qualname__", None) for each in (found.registered_task, task)]
+    return names[0] == names[1] is not None
