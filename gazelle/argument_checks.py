@@ -15,13 +15,14 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import fields, is_dataclass
 from numbers import Integral, Real
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, TypeGuard, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Indices, Worlds
 from gazelle.errors import Error
+from gazelle.native.index_order import order_of
 from gazelle_ros.base.argument_types import MOST_INT
 from gazelle_ros.base.characters import can_be_written
 from gazelle_ros.base.path_texts import can_be_path
@@ -32,6 +33,7 @@ Decorated = TypeVar("Decorated", bound=Callable[..., Any])
 MOST = 1e15
 """Greatest magnitude of a float: its square and cube are numbers, too."""
 _DEEPEST = 4
+_INDEX = np.dtype(np.intp)
 _CHECKED: set[type] = set()
 """Classes with instances checked at creation."""
 _WRAPPED: set[Any] = set()
@@ -109,6 +111,8 @@ def indices(what: str, selection: Any, count: int, error: type[Error]) -> Indice
     Raises:
         Error: There is no such thing, or they are not ints; of the given class.
     """
+    if are_indices(selection) and order_of(selection, count):
+        return selection
     rows: NDArray[Any] = np.zeros((0, 0))
     with contextlib.suppress(ValueError):  # of rows of different lengths
         rows = np.asarray(selection)
@@ -117,6 +121,11 @@ def indices(what: str, selection: Any, count: int, error: type[Error]) -> Indice
     if rows.size and not 0 <= rows.min() <= rows.max() < count:
         raise error(f"{what} must be from 0 to {count - 1}, not {selection!r:.60}")
     return rows.astype(np.intp, copy=False)
+
+
+def are_indices(selection: Any) -> TypeGuard[Indices]:
+    """Return whether a selection is an array of indices, shape (n,), maybe of things that are not there."""
+    return type(selection) is np.ndarray and selection.dtype is _INDEX and selection.ndim == 1
 
 
 def _decorate_members(kind: type, checking: Callable[..., Any]) -> None:

@@ -25,6 +25,8 @@ from gazelle.native.system import System
 from gazelle.plugins.splines import PoseSpline
 from gazelle.simulation import ModelPlugin, PluginSystem, Robot
 
+_XYZW = np.array([1, 2, 3, 0])  # columns of a quaternion (w, x, y, z)
+
 
 class ScriptedMotion(ModelPlugin):
     """Moves a model along waypoints in the world frame, or turns it evenly.
@@ -55,7 +57,21 @@ class ScriptedMotion(ModelPlugin):
         start = robot.description.pose
         self.start = np.asarray(start.position), np.asarray(start.quaternion)
         self._epoch = np.full(robot.simulation.nworld, robot.simulation.time)
+        self._prepare(robot.simulation.nworld)
         robot.simulation.engine.make_kinematic(robot.name)
+
+    def _prepare(self, nworld: int) -> None:
+        """Make what finds poses for a given number of worlds."""
+        self._begun = np.zeros(nworld)
+        self._position, self._quaternion = np.empty((nworld, 3)), np.empty((nworld, 4))
+        self._poses = PosePath(
+            self._path(self._begun),
+            self._position,
+            self._quaternion,
+            arm=np.zeros(3),
+            turned=np.array([0.0, 0.0, 0.0, 1.0]),
+            moved=np.zeros(1),
+        )
 
     def bind(self) -> System | None:
         """Return what moves the model in the engine's steps; None where Python does."""
@@ -97,17 +113,10 @@ class ScriptedMotion(ModelPlugin):
         """Return positions [m] and quaternions after some times, shapes (n, 3) and (n, 4)."""
         if self.splines:
             return self._on_splines(elapsed)
-        position, quaternion = np.empty((len(elapsed), 3)), np.empty((len(elapsed), 4))
-        path = PosePath(
-            self._path(-elapsed),
-            position,
-            quaternion,
-            arm=np.zeros(3),
-            turned=np.array([0.0, 0.0, 0.0, 1.0]),
-            moved=np.zeros(1),
-        )
-        path.update_from_python(0, len(elapsed), 0)
-        return position, quaternion[:, [1, 2, 3, 0]]
+        count = len(elapsed)
+        np.negative(elapsed, out=self._begun[:count])
+        self._poses.update_from_python(0, count, 0)
+        return self._position[:count], self._quaternion[:count].take(_XYZW, axis=1)
 
     def _on_splines(self, elapsed: Floats) -> tuple[Floats, Floats]:
         end = self.splines[-1][0] + self.splines[-1][1].duration

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import operator
+import sys
 from numbers import Real
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gazelle.argument_checks import are_indices
 from gazelle.array_types import Floats, Worlds
 from gazelle.errors import SimulationError
 from gazelle.kinematics.tree import FARTHEST
+from gazelle.native.index_order import order_of
 
 # Parameters of several numbers, which are not one an axis.
 VECTORS = ("gravity", "link_centre", "link_inertia", "wheel_slip")
@@ -19,8 +22,8 @@ VECTORS = ("gravity", "link_centre", "link_inertia", "wheel_slip")
 FIRST_WORLD = np.zeros(1, np.intp)
 FIRST_WORLD.setflags(write=False)
 
-# A quaternion's largest number is taken as it is up to this number of decades from one.
-_FAR_FROM_UNIT = 100.0
+# A quaternion is taken as it is if its largest number is between this and its inverse.
+_SMALL = 1e-100
 
 _MOST_STEPS = 2**31 - 1
 
@@ -39,6 +42,8 @@ def chosen(worlds: ArrayLike | None, nworld: int) -> Worlds | None:
     """
     if worlds is None:
         return None
+    if are_indices(worlds) and order_of(worlds, nworld) == 2:
+        return worlds.copy()
     try:
         given = np.asarray(worlds)
     except ValueError:  # rows of different lengths
@@ -61,7 +66,7 @@ def chosen(worlds: ArrayLike | None, nworld: int) -> Worlds | None:
 
 def is_ascending(worlds: Worlds) -> bool:
     """Return True if each world has a larger index than the one before."""
-    return len(worlds) < 2 or bool((worlds[1:] > worlds[:-1]).all())
+    return order_of(worlds, sys.maxsize) == 2
 
 
 def one_world(world: int, nworld: int) -> int:
@@ -91,7 +96,7 @@ def finite(what: str, values: ArrayLike, width: int, count: int, *, alike: bool 
         SimulationError: They are not numbers, not finite, or too many or too few.
     """
     given = numbers(what, values, width, count, alike=alike)
-    if not np.isfinite(given).all():
+    if np.count_nonzero(np.isfinite(given)) < given.size:
         raise SimulationError(f"{what} must be finite, not {_short(values)}")
     return given
 
@@ -120,6 +125,8 @@ def numbers(what: str, values: ArrayLike, width: int, count: int, *, alike: bool
         one = "a number" if width == 1 else f"{width} numbers"
         rows = f", or a row of them for each of {count} worlds" if count > 1 else ""
         raise SimulationError(f"{what} must be {one}{rows}, not {_short(values)}")
+    if given.shape[-1] == width:
+        return given
     return np.broadcast_to(given, (*given.shape[:-1], width))
 
 
@@ -133,16 +140,17 @@ def placement(
     """
     place = finite(f"the position of '{name}'", position, 3, count)
     turn = finite(f"the orientation of '{name}'", quaternion, 4, count)
-    if not (np.abs(place) <= FARTHEST).all():
+    if np.count_nonzero(np.abs(place) <= FARTHEST) < place.size:
         raise SimulationError(f"the position of '{name}' is too far away: {_short(position)}")
-    largest = np.abs(turn).max(axis=-1, keepdims=True)
-    if not largest.all():
+    largest = np.maximum.reduce(np.abs(turn), axis=-1, keepdims=True)
+    if np.count_nonzero(largest) < largest.size:
         raise SimulationError(
             f"the orientation of '{name}' must not be all zeros",
             hint="the identity is (0, 0, 0, 1): x, y, z, w",
         )
     # So that neither very large nor very small numbers lose their squares.
-    return place, turn / largest if (np.abs(np.log10(largest)) > _FAR_FROM_UNIT).any() else turn
+    near = (largest > _SMALL) & (largest < 1.0 / _SMALL)
+    return place, turn if np.count_nonzero(near) == near.size else turn / largest
 
 
 def motion(name: str, linear: ArrayLike, angular: ArrayLike, count: int) -> tuple[Floats, Floats]:

@@ -149,3 +149,16 @@ def test_worlds_may_be_ints_of_any_width(kind):
     for world in wrong:
         with pytest.raises(SimulationError, match="worlds must be in 0 to 3"):
             chosen(np.array([0, world], kind), 4)
+
+
+def test_an_array_of_rising_indices_is_copied():
+    given = np.array([0, 2])
+    found = chosen(given, 3)
+    given[0] = 1
+    assert found.tolist() == [0, 2]
+
+
+@pytest.mark.parametrize("wrong", [[0, 3], [-1, 2], [1, 1], [2, 0, 2]])
+def test_an_array_of_wrong_indices_is_refused(wrong):
+    with pytest.raises(SimulationError, match="worlds must be"):
+        chosen(np.array(wrong, np.intp), 3)

@@ -111,14 +111,17 @@ class PlanarModelRow:
             each = self._run.model(self._name)
         place = np.atleast_2d(np.asarray(position, np.float64))
         turned = np.atleast_2d(np.asarray(quaternion, np.float64))
-        yaw = yaw_of(multiply(turned, conjugate(np.asarray(each.tilt.quaternion)[None])))
-        count = max(len(place), len(yaw))
-        pose = np.empty((count, 3))
-        pose[:, :2], pose[:, 2] = place[:, :2], yaw
-        body = self._run.layout.bodies[self._name]
-        self._run.fleet.place(body, pose[0] if count == 1 else pose, worlds)
-        if not (each.free and each.tree.wheels):
-            self._run.fleet.rows[self._run.rows(body, worlds), c.Z] = place[:, 2]
+        if each.leaning:
+            turned = multiply(turned, conjugate(np.asarray(each.tilt.quaternion)[None]))
+        pose = np.empty((max(len(place), len(turned)), 3))
+        pose[:, :2], pose[:, 2] = place[:, :2], yaw_of(turned)
+        rolling = each.free and each.tree.wheels
+        self._run.fleet.place(
+            self._run.layout.bodies[self._name],
+            pose,
+            worlds,
+            height=None if rolling else place[:, 2],
+        )
 
     def set_motion(
         self, linear: ArrayLike, angular: ArrayLike, worlds: Worlds | None = None
@@ -127,9 +130,8 @@ class PlanarModelRow:
         each = self._run.model(self._name)
         if not each.free:
             return
-        rows = self._run.rows(self._run.layout.bodies[self._name], worlds)
-        body = self._run.fleet.rows[rows]
         v, w = np.asarray(linear, np.float64), np.asarray(angular, np.float64)
+        body = self._run.fleet.rows[self._run.rows(self._run.layout.bodies[self._name], worlds)]
         twist = np.empty((len(body), 3))
         twist[:, 0] = body[:, c.COS] * v[..., 0] + body[:, c.SIN] * v[..., 1]
         twist[:, 1] = body[:, c.COS] * v[..., 1] - body[:, c.SIN] * v[..., 0]
@@ -141,10 +143,7 @@ class PlanarModelRow:
         each = self._run.model(self._name)
         if not each.free:
             return
-        rows = self._run.rows(self._run.layout.bodies[self._name], worlds)
-        self._run.fleet.command.reshape(-1, 3)[rows] = twist
-        self._run.fleet.velocity.reshape(-1, 3)[rows] = twist
-        self._run.fleet.stalled.reshape(-1)[rows] = False
+        self._run.fleet.drive(self._run.layout.bodies[self._name], twist, worlds)
         first = self._run.layout.columns[self._name]
         self._run.rates[rows_of(worlds), first : first + each.tree.width] = 0.0
 
