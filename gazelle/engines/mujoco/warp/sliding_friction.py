@@ -45,15 +45,19 @@ def _on_a_cone(
     size = wp.sqrt(along * along + across * across)
     most = wp.max(friction[0], friction[1])
     if most > 0.0:
-        share = _share(laws, world, size / most, most, _is_alike(contacts, laws, contact))
+        alike = _is_alike(contacts, laws, contact)
+        share = _share(laws, world, size / most, most, alike)
         if share > 0.0:
             along = friction[0] * along / size
             across = friction[1] * across / size
-            one = last_acceleration(rows, world, first) - rows.reference[world, first]
-            two = last_acceleration(rows, world, second) - rows.reference[world, second]
+            gained = along * last_acceleration(rows, world, first)
+            gained += across * last_acceleration(rows, world, second)
+            wanted = along * rows.reference[world, first]
+            wanted += across * rows.reference[world, second]
             lacking = rows.reference[world, normal] - last_acceleration(rows, world, normal)
             mu = wp.sqrt(along * along + across * across)
-            parting = _parting(laws, world, along * one + across * two, lacking, mu)
+            left = _lasting(laws, world, gained, size, alike) - wanted
+            parting = _parting(laws, world, left, lacking, mu)
             rows.reference[world, normal] = rows.reference[world, normal] - share * parting
 
 
@@ -76,20 +80,22 @@ def _on_a_pyramid(
     if slip >= LEAST_CREEP:
         _turn_frame(contacts, contact, one / slip, two / slip)
         turn_pyramid(rows, world, row, one / slip, two / slip)
-        share = _share(laws, world, slip, mu, _is_alike(contacts, laws, contact))
+        alike = _is_alike(contacts, laws, contact)
+        share = _share(laws, world, slip, mu, alike)
         if share > 0.0:
             left = float(0.0)
             lacking = float(0.0)
             for side in range(2):
                 plus = row[2 * side]
                 minus = row[2 * side + 1]
-                ahead = last_acceleration(rows, world, plus) - rows.reference[world, plus]
-                behind = last_acceleration(rows, world, minus) - rows.reference[world, minus]
-                more = 0.5 * (ahead - behind)
-                if rows.velocity[world, plus] <= rows.velocity[world, minus]:
-                    more = -more
-                left = wp.max(left, more)
-                lacking = -0.5 * (ahead + behind)
+                ahead = last_acceleration(rows, world, plus)
+                behind = last_acceleration(rows, world, minus)
+                sign = wp.where(rows.velocity[world, plus] > rows.velocity[world, minus], 0.5, -0.5)
+                wanted = sign * (rows.reference[world, plus] - rows.reference[world, minus])
+                gained = _lasting(laws, world, sign * (ahead - behind), mu * slip, alike)
+                left = wp.max(left, gained - wanted)
+                both = rows.reference[world, plus] + rows.reference[world, minus]
+                lacking = 0.5 * (both - ahead - behind)
             parting = share * _parting(laws, world, left, lacking, mu)
             for edge in range(2 * (contacts.dim[contact] - 1)):
                 place = contacts.address[contact, edge]
@@ -139,6 +145,14 @@ def _share(laws: ContactLaws, world: int, slip: float, friction: float, alike: i
         return 0.0
     creep = wp.max(LEAST_SLIP, CREEP * friction * _weight(laws, world) * _step(laws, world))
     return wp.clamp(slip / creep - 1.0, 0.0, 1.0)
+
+
+@wp.func
+def _lasting(laws: ContactLaws, world: int, gained: float, slip: float, alike: int) -> float:
+    """Return the acceleration along the slip to expect after that of the last step."""
+    if gained <= 0.0 or alike != 0:
+        return gained
+    return gained * wp.max(1.0 - gained * _step(laws, world) / slip, 0.0)
 
 
 @wp.func
