@@ -28,7 +28,7 @@ class Push(SimulationTask):
     def __init__(self, nworld: int, engine: str = "mujoco") -> None:
         """Make the task in a number of worlds."""
         world = gazelle.load(assets.world("empty"))
-        simulation = gazelle.Simulation(world, engine, nworld=nworld, time_step=0.01)
+        simulation = gazelle.Simulation(world, engine, nworld=nworld, time_step=0.02)
         simulation.physics.contacts = "fast"
         self.robot = simulation.spawn(assets.robot("kobuki"))
         cube = slab("cube", (SIDE, SIDE, SIDE), (0.0, 0.0, SIDE / 2.0), "beech")
