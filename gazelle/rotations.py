@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from gazelle.array_types import Floats
+from gazelle.native.quaternion_rows import find_headings
 
 
 def rotate(q: Floats, v: Floats) -> Floats:
@@ -137,17 +138,11 @@ def _cross_one(a: Floats, b: Floats) -> Floats:
 
 def yaw_of(q: Floats) -> Floats:
     """Return heading about z [rad] in (-pi, pi] of unit quaternions, shape (..., 4)."""
-    if q.size == 4 and q.ndim > 1:
-        return _yaw_of_one(q)
-    x, y, z, w = q[..., 0], q[..., 1], q[..., 2], q[..., 3]
-    return np.arctan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
-
-
-def _yaw_of_one(q: Floats) -> Floats:
-    """Return the heading of a single quaternion, to the bit."""
-    x, y, z, w = q.ravel().tolist()
-    yaw: Floats = np.arctan2((2.0 * (w * z + x * y),), (1.0 - 2.0 * (y * y + z * z),))
-    return yaw.reshape(q.shape[:-1])
+    rows = np.asarray(q, np.float64).reshape(-1, 4)
+    x_axis = np.empty((2, len(rows)))
+    find_headings(rows, x_axis[0], x_axis[1])
+    yaw: Floats = np.arctan2(x_axis[1], x_axis[0]).reshape(q.shape[:-1])
+    return yaw
 
 
 def roll_pitch_yaw(q: Floats) -> Floats:

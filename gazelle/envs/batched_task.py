@@ -247,7 +247,7 @@ class BatchedTask(ABC):
         info = _put(last.info, start, worlds)
         final = FinalObservations(
             worlds,
-            last.observation[worlds],
+            last.observation.take(worlds, axis=0),
             {name: _only(values, worlds) for name, values in last.info.items()},
         )
         now = Transition(observation, last.reward, last.terminated, last.truncated, info)
@@ -388,5 +388,5 @@ def _rebuilt(
 def _only(values: NDArray[Any], worlds: Worlds) -> NDArray[Any]:
     """Return the values of some worlds, and zeros elsewhere."""
     kept = np.zeros(values.shape, values.dtype)
-    kept[worlds] = values[worlds]
+    kept[worlds] = values.take(worlds, axis=0)  # several times as fast as indexing
     return kept

@@ -73,8 +73,10 @@ class RandomStarts:
             self.phases[worlds, share - 1] = elapsed
             script.begin_at(elapsed, worlds)
         yaw = (2.0 * drawn[:, 0] - 1.0) * np.pi
-        choices = self._places[(drawn[:, 1 + scripts :] * len(self._places)).astype(np.intp)]
-        near_goal = np.hypot(*np.moveaxis(choices - goals[:, None, :], 2, 0)) <= APART
+        numbers = (drawn[:, 1 + scripts :] * len(self._places)).astype(np.intp)
+        choices = self._places.take(numbers, axis=0)
+        away = choices - goals[:, None, :]
+        near_goal = np.hypot(away[:, :, 0], away[:, :, 1]) <= APART
         position = self._robot.placement(worlds).position
         pending = np.arange(len(worlds))
         for attempt in range(_TRIES):
@@ -84,7 +86,8 @@ class RandomStarts:
             pending = pending[near_goal[pending, attempt] | (nearest(some) < CLEAR)]
             if not len(pending):
                 break
-        self.poses[worlds] = np.column_stack((position[:, :2], yaw))
+        position[:, 2] = yaw
+        self.poses[worlds] = position
 
     def get_state(self) -> dict[str, Any]:
         """Return the state for a saved environment."""

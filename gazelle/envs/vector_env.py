@@ -235,12 +235,14 @@ class TaskVectorEnv(gym.vector.VectorEnv[Any, Any, NDArray[Any]]):
 
 def _final_infos(final: FinalObservations, nworld: int) -> dict[str, Any]:
     """Return ``final_obs`` and ``final_info`` as in Gymnasium's vector environments."""
-    observation = np.full(nworld, None, dtype=np.object_)
+    observation = np.empty(nworld, dtype=np.object_)  # None where nothing is set
     observation[final.worlds] = np.fromiter(
         final.observation, dtype=np.object_, count=len(final.worlds)
     )
-    masks = np.zeros((len(final.info) + 2, nworld), dtype=np.bool_)
-    masks[:, final.worlds] = True
+    ended = np.zeros(nworld, dtype=np.bool_)
+    ended[final.worlds] = True
+    masks = np.empty((len(final.info) + 2, nworld), dtype=np.bool_)
+    masks[:] = ended
     names = (f"_{name}" for name in final.info)
     return {
         "final_obs": observation,

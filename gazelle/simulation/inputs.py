@@ -14,6 +14,7 @@ from gazelle.array_types import Floats, Worlds
 from gazelle.errors import SimulationError
 from gazelle.kinematics.tree import FARTHEST
 from gazelle.native.index_order import order_of
+from gazelle.native.quaternion_rows import are_orientations, are_within
 
 # Parameters of several numbers, which are not one an axis.
 VECTORS = ("gravity", "link_centre", "link_inertia", "wheel_slip")
@@ -21,9 +22,6 @@ VECTORS = ("gravity", "link_centre", "link_inertia", "wheel_slip")
 # Indices of world 0 alone.
 FIRST_WORLD = np.zeros(1, np.intp)
 FIRST_WORLD.setflags(write=False)
-
-# A quaternion is taken as it is if its largest number is between this and its inverse.
-_SMALL = 1e-100
 
 _MOST_STEPS = 2**31 - 1
 
@@ -138,19 +136,20 @@ def placement(
     Raises:
         SimulationError: They are not finite, too far away, no orientation, or of another shape.
     """
-    place = finite(f"the position of '{name}'", position, 3, count)
-    turn = finite(f"the orientation of '{name}'", quaternion, 4, count)
-    if np.count_nonzero(np.abs(place) <= FARTHEST) < place.size:
+    what = f"the position of '{name}'", f"the orientation of '{name}'"
+    place, turn = numbers(what[0], position, 3, count), numbers(what[1], quaternion, 4, count)
+    if are_within(np.atleast_2d(place), FARTHEST) and are_orientations(np.atleast_2d(turn)):
+        return place, turn
+    place, turn = finite(what[0], position, 3, count), finite(what[1], quaternion, 4, count)
+    if not (np.abs(place) <= FARTHEST).all():
         raise SimulationError(f"the position of '{name}' is too far away: {_short(position)}")
-    largest = np.maximum.reduce(np.abs(turn), axis=-1, keepdims=True)
-    if np.count_nonzero(largest) < largest.size:
+    largest = np.abs(turn).max(axis=-1, keepdims=True)
+    if not largest.all():
         raise SimulationError(
             f"the orientation of '{name}' must not be all zeros",
             hint="the identity is (0, 0, 0, 1): x, y, z, w",
         )
-    # So that neither very large nor very small numbers lose their squares.
-    near = (largest > _SMALL) & (largest < 1.0 / _SMALL)
-    return place, turn if np.count_nonzero(near) == near.size else turn / largest
+    return place, turn / largest  # so that numbers of any size have squares
 
 
 def motion(name: str, linear: ArrayLike, angular: ArrayLike, count: int) -> tuple[Floats, Floats]:

@@ -14,8 +14,9 @@ from gazelle.array_types import Floats, Indices, Worlds
 from gazelle.engines.limits import MAX_WORLDS, integer, physics_step
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.bodies import Bodies
+from gazelle.engines.planar.body_writes import set_poses
 from gazelle.engines.planar.fleet_bodies import Body, Drive, drive_row, radius_of
-from gazelle.engines.planar.grid_cells import drive_some, put_back, put_some, relink, relink_some
+from gazelle.engines.planar.grid_cells import put_back, relink, relink_some
 from gazelle.engines.planar.merged_steps import Moving
 from gazelle.engines.planar.moving import Planning, Screening, Settling
 from gazelle.engines.planar.scene import scene_of
@@ -238,39 +239,16 @@ class Fleet:
         Raises:
             EngineError: A number is not finite, or there is no such body or world.
         """
-        which = self._which(body, worlds)
-        given = np.asarray(pose, np.float64)
-        count = max(1 if given.ndim < 2 else len(given), 1 if height is None else np.size(height))
-        placed = np.empty((count, c.SIN + 1 if height is None else c.Z + 1))
-        placed[:, : c.YAW + 1] = given
-        np.cos(placed[:, c.YAW], out=placed[:, c.COS])
-        np.sin(placed[:, c.YAW], out=placed[:, c.SIN])
-        if height is not None:
-            placed[:, c.Z] = height
-        if not put_some(self.bodies, which, _rows_for(which, placed)):
-            raise EngineError(f"the pose of a body must be finite numbers, not {pose!r:.60}")
+        set_poses(self.bodies, self.which(body, worlds), pose, height)
         self.changes += 1
 
     @checked(EngineError, after=True)
-    def drive(self, body: int, twist: ArrayLike, worlds: Worlds | None = None) -> None:
-        """Set command and velocity of a body, which is not stalled from then on.
-
-        Args:
-            body: Its index.
-            twist: As ``Drive`` has it, shape (3,) or (n, 3).
-            worlds: Worlds; all if None.
+    def which(self, body: int, worlds: Worlds | None = None) -> Indices:
+        """Return a body in some worlds, all if None, counted through all worlds.
 
         Raises:
-            EngineError: A number is not finite, or there is no such body or world.
+            EngineError: There is no such body or world.
         """
-        which, given = self._which(body, worlds), np.asarray(twist, np.float64)
-        rows = np.empty((1 if given.ndim < 2 else len(given), 3))
-        rows[:] = given
-        if not drive_some(self.bodies, which, _rows_for(which, rows)):
-            raise EngineError(f"a velocity must be finite numbers, not {twist!r:.60}")
-
-    def _which(self, body: int, worlds: Worlds | None) -> Indices:
-        """Return a body in some worlds, all if None, counted through all worlds."""
         if not 0 <= body < self.nbody:
             raise EngineError(f"there is no body {body}; bodies are 0 to {self.nbody - 1}")
         if worlds is None:
@@ -379,17 +357,6 @@ class Fleet:
     def close(self) -> None:
         """Stop the threads."""
         self.pool.close()
-
-
-def _rows_for(which: Indices, values: Floats) -> Floats:
-    """Return values with a row for each body, or one for all, and nothing else.
-
-    Raises:
-        EngineError: They have another number of rows.
-    """
-    if len(values) not in (1, len(which)):
-        raise EngineError(f"{len(values)} rows are not for {len(which)} worlds")
-    return values
 
 
 def _rows_of(placed: Floats) -> Floats:

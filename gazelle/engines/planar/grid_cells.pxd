@@ -16,11 +16,5 @@ cdef void unlink(Bodies w, Py_ssize_t world, int body, Py_ssize_t cell) noexcept
 cdef void relink_one(Bodies w, Py_ssize_t b) noexcept nogil
 cpdef void relink(Bodies w, Py_ssize_t first, Py_ssize_t last) noexcept nogil
 cpdef void relink_some(Bodies w, Py_ssize_t[::1] which) noexcept nogil
-@cython.locals(i=Py_ssize_t, c=Py_ssize_t, b=Py_ssize_t)
-cpdef bint put_some(Bodies w, Py_ssize_t[::1] which, double[:, ::1] placed) noexcept
-@cython.locals(i=Py_ssize_t, axis=Py_ssize_t, b=Py_ssize_t)
-cpdef bint drive_some(Bodies w, Py_ssize_t[::1] which, double[:, ::1] twist) noexcept
-@cython.locals(i=Py_ssize_t, c=Py_ssize_t)
-cdef bint are_near(double[:, ::1] values) noexcept
 @cython.locals(i=Py_ssize_t, k=Py_ssize_t, b=Py_ssize_t, c=Py_ssize_t, axis=Py_ssize_t)
 cpdef void put_back(Bodies w, Py_ssize_t[::1] worlds, double[:, ::1] initial) noexcept

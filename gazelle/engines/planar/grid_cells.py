@@ -13,13 +13,11 @@ from __future__ import annotations
 import cython
 from cython.cimports.gazelle.engines.planar.bodies import Bodies
 from cython.cimports.gazelle.engines.planar.columns import CIRCLE, KIND, X0, X1, Y0, Y1, X, Y
-from cython.cimports.libc.math import fabs, floor
+from cython.cimports.libc.math import floor
 
-from gazelle.argument_checks import MOST
 from gazelle.array_types import Floats, Ints32, Worlds
 
 INFINITE = float("inf")
-FARTHEST = cython.declare(cython.double, MOST)
 
 
 def place_in(value: float, corner: float, side: float, count: float) -> int:
@@ -136,50 +134,6 @@ def relink_some(w: Bodies, which: Floats) -> None:
     """Update the lists for some bodies, shape (n,)."""
     for i in range(which.shape[0]):
         relink_one(w, which[i])
-
-
-def put_some(w: Bodies, which: Worlds, placed: Floats) -> bool:
-    """Set the first columns of bodies, shape (n,), regardless of obstacles.
-
-    Args:
-        w: All bodies.
-        which: Bodies, counted through all worlds.
-        placed: A row for each, or one for all, shape (n or 1, columns).
-
-    Returns:
-        Whether all numbers are within reach; else nothing is set.
-    """
-    rows, columns = placed.shape[0], placed.shape[1]
-    if not are_near(placed):
-        return False
-    for i in range(which.shape[0]):
-        b = which[i]
-        for c in range(columns):
-            w.rows[b, c] = placed[i if rows > 1 else 0, c]
-        relink_one(w, b)
-    return True
-
-
-def drive_some(w: Bodies, which: Worlds, twist: Floats) -> bool:
-    """Set commands and velocities of bodies that do not stall; arguments as of ``put_some``."""
-    rows = twist.shape[0]
-    if not are_near(twist):
-        return False
-    for i in range(which.shape[0]):
-        b = which[i]
-        for axis in range(3):
-            w.command[b, axis] = w.velocity[b, axis] = twist[i if rows > 1 else 0, axis]
-        w.stalled[b] = 0
-    return True
-
-
-def are_near(values: Floats) -> bool:
-    """Return whether all values, shape (n, columns), are numbers of a magnitude that is allowed."""
-    for i in range(values.shape[0]):
-        for c in range(values.shape[1]):
-            if not fabs(values[i, c]) <= FARTHEST:
-                return False
-    return True
 
 
 def put_back(w: Bodies, worlds: Worlds, initial: Floats) -> None:

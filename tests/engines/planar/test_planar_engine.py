@@ -308,3 +308,24 @@ def test_a_world_that_there_is_not_has_no_pose():
             row.placement(np.array(worlds))
     with pytest.raises(IndexError):
         row.pose(2)
+
+
+@pytest.mark.parametrize("change", ["set_ground_motion", "set_motion"])
+def test_velocities_turn_with_the_model_and_are_refused_for_other_worlds(change):
+    yaw = np.array([0.5, -2.5, 3.0])
+    with Simulation(scenes.world(scenes.burger()), "planar", nworld=3, threads=1) as sim:
+        robot = sim.robots["burger"]
+        robot.set_pose((0.0, 0.0, 0.0), yaw=yaw)
+        model, wheels = sim.engine.models["burger"], sim.engine.snapshot()
+        more = (np.zeros(3),) if change == "set_motion" else ()
+        with pytest.raises(EngineError, match="are not for 3 worlds"):
+            getattr(model, change)(np.zeros((2, 3)), *more)
+        assert (sim.engine.snapshot() == wheels).all()
+        getattr(model, change)((0.3, 0.2, 0.0), *more, np.array([2, 0]))
+        linear, _ = model.twist(None)
+    turned = np.stack(
+        (0.3 * np.cos(yaw) - 0.2 * np.sin(yaw), 0.3 * np.sin(yaw) + 0.2 * np.cos(yaw))
+    )
+    wanted = np.stack((np.full(3, 0.3), np.full(3, 0.2))) if change == "set_motion" else turned
+    wanted[:, 1] = 0.0
+    np.testing.assert_allclose(linear[:, :2], wanted.T, atol=1e-12)

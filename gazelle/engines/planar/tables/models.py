@@ -14,6 +14,7 @@ from gazelle.engines.motion import Placement
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.body_conversion import ConvertedModel
 from gazelle.engines.planar.body_poses import pose_of
+from gazelle.engines.planar.body_writes import push, set_twists
 from gazelle.engines.planar.layout import PlanarLayout
 from gazelle.engines.planar.paths import PathFollower
 from gazelle.engines.planar.twist_commands import TwistCommands
@@ -130,20 +131,22 @@ class PlanarModelRow:
         each = self._run.model(self._name)
         if not each.free:
             return
-        v, w = np.asarray(linear, np.float64), np.asarray(angular, np.float64)
-        body = self._run.fleet.rows[self._run.rows(self._run.layout.bodies[self._name], worlds)]
-        twist = np.empty((len(body), 3))
-        twist[:, 0] = body[:, c.COS] * v[..., 0] + body[:, c.SIN] * v[..., 1]
-        twist[:, 1] = body[:, c.COS] * v[..., 1] - body[:, c.SIN] * v[..., 0]
-        twist[:, 2] = w[..., 2]
-        self.set_ground_motion(twist, worlds)
+        push(self._run.fleet.bodies, self._which(worlds), linear, angular)
+        self._rest_joints(each, worlds)
 
     def set_ground_motion(self, twist: ArrayLike, worlds: Worlds | None = None) -> None:
         """Set a lasting velocity of the model along and across its heading, joints at rest."""
         each = self._run.model(self._name)
         if not each.free:
             return
-        self._run.fleet.drive(self._run.layout.bodies[self._name], twist, worlds)
+        set_twists(self._run.fleet.bodies, self._which(worlds), twist)
+        self._rest_joints(each, worlds)
+
+    def _which(self, worlds: Worlds | None) -> Indices:
+        """Return its body in some worlds, all if None, counted through all worlds."""
+        return self._run.fleet.which(self._run.layout.bodies[self._name], worlds)
+
+    def _rest_joints(self, each: ConvertedModel, worlds: Worlds | None) -> None:
         first = self._run.layout.columns[self._name]
         self._run.rates[rows_of(worlds), first : first + each.tree.width] = 0.0
 
