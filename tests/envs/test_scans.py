@@ -1,6 +1,7 @@
 """Ranges a policy can take."""
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
@@ -51,3 +52,11 @@ def test_the_nearest_obstacle_is_the_first_of_the_shortest(ranges):
     nearest, ray = nearest_obstacle(ranges)
     assert np.array_equal(nearest, ranges.min(axis=1))
     assert np.array_equal(ray, ranges.argmin(axis=1))
+
+
+@pytest.mark.parametrize("samples", [32, 33, 64, 65, 360])
+def test_the_nearest_of_many_is_the_first_of_the_shortest(samples):
+    drawn = np.random.default_rng(samples).integers(1, 40, (200, samples)).astype(np.float32)
+    nearest, ray = nearest_obstacle(drawn)
+    assert np.array_equal(nearest, drawn.min(axis=1))
+    assert np.array_equal(ray, drawn.argmin(axis=1))

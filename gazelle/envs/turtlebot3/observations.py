@@ -19,7 +19,7 @@ class RobotViews:
     Attributes:
         state: Cleaned ranges [m], heading, distance and, if the stage has it, the nearest obstacle,
             shape (n, samples + 2) or (n, samples + 4), numbers of single precision.
-        found: Shortest range [m], the same rounded to 0.01 m, distance and heading, shape (4, n).
+        found: As of ``row_laws.see``, shape (6, n).
         distance: To the goal, rounded to 0.01 m, shape (n,).
         heading: Of the goal, rounded to 0.01 rad, shape (n,).
         position: Of the robots in the world frame [m], shape (n, 2).
@@ -53,7 +53,7 @@ def sight(
     # Single precision, as in a LaserScan message and in the observation: what is worked out of
     # ranges here comes out the same from those.
     state = np.empty((count, samples + (4 if rules.sees_obstacle else 2)), np.float32)
-    found = np.empty((4, count))
+    found = np.empty((6, count))
     whole, farthest = np.ascontiguousarray(ranges), rules.range_max
     see(whole, range_min, farthest, pose, goal, state, found)
     return RobotViews(state, found, found[2], found[3], pose[:, :2])

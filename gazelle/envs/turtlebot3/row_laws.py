@@ -8,7 +8,7 @@ import math
 
 import cython
 import numpy as np
-from cython.cimports.gazelle.envs.decimals import round_one
+from cython.cimports.gazelle.envs.decimals import round_all, round_one
 from cython.cimports.gazelle.envs.polar import distance_of, heading_of
 from cython.cimports.gazelle.envs.scans import clean_all, nearest_of
 from cython.cimports.libc.math import fabs, floor, fmod
@@ -39,7 +39,7 @@ def see(
         state: For the ranges [m], heading and distance of the goal and, where there is room, the
             shortest range and its index, shape (n, samples + 2) or (n, samples + 4).
         found: For the shortest range, the same rounded, and the rounded distance [m] and heading
-            [rad] of the goal, shape (4, n).
+            [rad] of the goal, and these two before they are rounded, shape (6, n).
     """
     samples = ranges.shape[1]
     clean_all(ranges, state, nearest, farthest)
@@ -47,12 +47,16 @@ def see(
         ray = nearest_of(state, i, samples)
         x, y = goal[i, 0] - pose[i, 0], goal[i, 1] - pose[i, 1]
         found[0, i] = state[i, ray]
-        found[1, i] = round_one(found[0, i], 100.0)
-        found[2, i] = round_one(distance_of(x, y), 100.0)
-        found[3, i] = round_one(heading_of(x, y, pose[i, 2]), 100.0)
+        found[4, i], found[5, i] = distance_of(x, y), heading_of(x, y, pose[i, 2])
+        if state.shape[1] > samples + 2:
+            state[i, samples + 3] = ray
+    round_all(found[0], found[1], 100.0)
+    round_all(found[4], found[2], 100.0)
+    round_all(found[5], found[3], 100.0)
+    for i in range(ranges.shape[0]):
         state[i, samples], state[i, samples + 1] = found[3, i], found[2, i]
         if state.shape[1] > samples + 2:
-            state[i, samples + 2], state[i, samples + 3] = found[1, i], ray
+            state[i, samples + 2] = found[1, i]
 
 
 def wave_of(heading: float, index: float) -> float:
@@ -86,7 +90,7 @@ def judge_all(
     """Find which robots collide and arrive, and what a step pays.
 
     Args:
-        found: As of ``see``, shape (4, n).
+        found: As of ``see``, shape (6, n).
         angular: Commanded yaw rates [rad/s], shape (n,).
         collision: A shorter range is a collision [m]; one of 0 is a failed ray.
         arrival: A shorter rounded distance is a reached goal [m].
