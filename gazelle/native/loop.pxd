@@ -1,10 +1,8 @@
 cdef extern from "threads.h":
-    long long gazelle_fetch_add(long long *counter, long long amount) noexcept nogil
     void gazelle_wait_for_all(long long *places, long long threads) noexcept nogil
 
 
 cdef enum:
-    BLOCKS_A_THREAD = 4  # a thread that is slow, or begins late, leaves some to the others
     APART = 16  # so many numbers apart, threads do not fight for a line of a cache
 
 
@@ -21,7 +19,6 @@ cdef class SystemLoop:
     cdef long long[::1] _end
     cdef void _play_worlds(self, Py_ssize_t part, Py_ssize_t blocks, long long until) noexcept nogil
     cdef void _play_together(self, Py_ssize_t part, Py_ssize_t threads, long long until) noexcept nogil
-    cdef long long _next_block(self) noexcept nogil
     cdef void _wait_for_all(self, Py_ssize_t threads) noexcept nogil
     cdef object _update_due(self, Py_ssize_t row, long long late)
     cdef long long _steps_to_due(self, Py_ssize_t row, long long until) noexcept nogil

@@ -21,11 +21,14 @@ from cython.cimports.gazelle.native.acting import (
     STEADY,
     WIDTH,
 )
+from cython.cimports.gazelle.native.blocks import next_block
 from cython.cimports.gazelle.native.due_times import next_due
 from cython.cimports.gazelle.native.system import System
 
+from gazelle.native.worker_pool import BLOCKS_A_THREAD
+
 if not cython.compiled:
-    BLOCKS_A_THREAD, APART = 4, 16  # in a compiled module, what loop.pxd says
+    APART = 16  # in a compiled module, what loop.pxd says
 
 
 # Systems by their addresses, for Python that runs the sources of compiled modules.
@@ -264,7 +267,7 @@ class SystemLoop:
         block: cython.longlong
         self._begin(part)
         while True:
-            block = self._next_block()
+            block = next_block(self._shared)
             if block >= blocks:
                 return
             first: cython.Py_ssize_t = self.nworld * block // blocks
@@ -358,16 +361,6 @@ class SystemLoop:
     def _moment_of(self, index: cython.Py_ssize_t, time: cython.longlong) -> cython.longlong:
         """Return the time of an update in the step that begins at a time [ns]."""
         return time + self._table[index, LATE] * self.step
-
-    @cython.cfunc
-    @cython.nogil
-    @cython.exceptval(check=False)
-    def _next_block(self) -> cython.longlong:
-        """Return the number of a block that no thread has taken."""
-        if cython.compiled:
-            return gazelle_fetch_add(cython.address(self._shared[0]), 1)  # type: ignore[name-defined]  # noqa: F821
-        self._shared[0] += 1
-        return self._shared[0] - 1
 
     @cython.cfunc
     @cython.nogil

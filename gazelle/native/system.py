@@ -5,6 +5,7 @@
 from typing import Any
 
 import cython
+from cython.cimports.gazelle.native.blocks import next_block
 
 HEAP_TYPE = 1 << 9
 """Py_TPFLAGS_HEAPTYPE: a class that is made at run time, as the stable ABI makes all."""
@@ -66,6 +67,27 @@ class System:
         when: cython.longlong = time
         with cython.nogil:
             self.update(begin, end, when)
+
+    def update_blocks(self, taken: Any, blocks: int, rows: int, time: int) -> None:
+        """Update blocks of rows that no thread has taken, as long as there are any left.
+
+        Args:
+            taken: Number of blocks that threads have taken, shape (1,).
+            blocks: Number of blocks.
+            rows: Number of rows.
+            time: Simulated time [ns].
+        """
+        counter: cython.longlong[::1] = taken
+        count: cython.longlong = blocks
+        end: cython.longlong = rows
+        when: cython.longlong = time
+        block: cython.longlong
+        with cython.nogil:
+            while True:
+                block = next_block(counter)
+                if block >= count:
+                    break
+                self.update(end * block // count, end * (block + 1) // count, when)
 
     @cython.cfunc
     @cython.nogil

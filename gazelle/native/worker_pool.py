@@ -9,9 +9,14 @@ import weakref
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
+
 from gazelle.errors import EngineError
 from gazelle.native.processors import processors
 from gazelle.native.system import System
+
+BLOCKS_A_THREAD = 4
+"""A thread that is slow, or begins late, leaves some of them to the others."""
 
 
 class _Worker:
@@ -106,14 +111,12 @@ class WorkerPool:
             time: Simulated time [ns].
         """
         rows = nworld * system.rows
-        if self.size < 2 or rows < 2 * system.least:
+        parts = min(self.size, rows // system.least)
+        if parts < 2:
             system.update_from_python(0, rows, time)
-        else:
-            self.share(
-                lambda first, last, _: system.update_from_python(first, last, time),
-                rows,
-                system.least,
-            )
+            return
+        taken, blocks = np.zeros(1, np.int64), min(rows, parts * BLOCKS_A_THREAD)
+        self.call(lambda _: system.update_blocks(taken, blocks, rows, time), parts)
 
     def call(self, work: Callable[[int], Any], parts: int) -> list[Any]:
         """Call ``work(part)`` for at most a given number of parts at once, at least one; returns their results.

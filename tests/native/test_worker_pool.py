@@ -4,9 +4,11 @@ import gc
 import threading
 import time
 
+import numpy as np
 import pytest
 
 from gazelle.errors import EngineError
+from gazelle.native.paths import ModelPath, PosePath
 from gazelle.native.worker_pool import WorkerPool
 
 
@@ -50,6 +52,21 @@ def test_an_error_comes_after_all_have_ended_and_harms_nobody(pool, who):
         pool.share(work, 30, 10)
     assert sorted([*ended, who]) == [0, 1, 2]
     assert pool.share(lambda *part: part[2], 30, 10) == [0, 1, 2]
+
+
+@pytest.mark.parametrize("nworld", [1, 2, 5, 1000])
+def test_every_row_of_a_system_is_updated(pool, nworld):
+    none = np.zeros((0, 3))
+    start, attitude = np.arange(3.0), np.array([0.0, 0.0, 0.0, 1.0])
+    path = ModelPath(
+        none[:, 0], none, np.zeros((0, 4)), start, attitude, np.ones(3), False, np.zeros(nworld)
+    )
+    position, quaternion = np.full((nworld, 3), np.nan), np.full((nworld, 4), np.nan)
+    arm, moved = np.zeros(3), np.zeros(1)
+    system = PosePath(path, position, quaternion, arm=arm, turned=attitude, moved=moved)
+    pool.update(system, nworld, 10**9)
+    assert (position == start).all()
+    assert (quaternion == quaternion[0]).all()
 
 
 @pytest.mark.long
