@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gazelle.native.system import System
 from gazelle.simulation.clock import Clock, Schedule
-from gazelle.simulation.inputs import chosen
+from gazelle.simulation.inputs import chosen, is_ascending
 from gazelle.simulation.scheduled_plugin import ScheduledPlugin
 from gazelle.simulation.scheduled_systems import ScheduledSystem, make_systems
 from gazelle.simulation.sensor_groups import SensorGroup, group_sensors
@@ -137,6 +137,6 @@ def indices_of(worlds: ArrayLike | None, nworld: int) -> NDArray[np.intp] | None
     if worlds is None:
         return None
     some = chosen(worlds, nworld)
-    if some is None or len(some) < 2 or (some[1:] > some[:-1]).all():
+    if some is None or is_ascending(some):
         return some
     return np.unique(some)
