@@ -114,13 +114,12 @@ def _details(task: Task) -> str:
     recipe = listed_recipe(task.id)
     engine = recipe.training_options.get("engine")
     where = "" if engine is None else f", engine {engine}"
+    most = "" if recipe.success_to_finish is None else "at most "
+    steps = f"{most}{recipe.steps:,} control steps"
     own = _claims(task)
     rows = [
         ("train", f"gazelle train {_typed(task)}"),
-        (
-            "recipe",
-            f"{recipe.algo}, {recipe.steps:,} control steps, {recipe.num_envs} environments{where}",
-        ),
+        ("recipe", f"{recipe.algo}, {steps}, {recipe.num_envs} environments{where}"),
         *(_figures(own) if own else [("figure", _why_not(task) or "none is known of this task")]),
     ]
     for train in published_claims().other_trainings(task.name) if _is_own(task) else ():

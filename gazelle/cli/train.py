@@ -112,14 +112,13 @@ def _begin(args: argparse.Namespace) -> TrainResult:
     options = environment_options(args)
     own = task_recipe(args.task, args.algo, imports=args.imports, options=options)
     recipe = with_values(own, dict(args.values))
-    planned = replace(
-        recipe, steps=args.steps or recipe.steps, num_envs=args.num_envs or recipe.num_envs
-    )
+    planned = replace(recipe, num_envs=args.num_envs or recipe.num_envs)
+    planned = planned if args.steps is None else planned.with_steps(args.steps)
     seed = args.seed or 0
     engine = {**recipe.training_options, **options}.get("engine")
     where = "" if engine is None else f", engine {engine}"
     sys.stderr.write(
-        f"{recipe.algo}: {planned.rounded_steps:,} steps, {planned.num_envs} environments, "
+        f"{recipe.algo}: {_most(planned)}, {planned.num_envs} environments, "
         f"seed {seed}{where}\n{_rounding(planned)}"
     )
     from gazelle.training import train  # imports torch, which takes seconds
@@ -147,8 +146,8 @@ def _resume(args: argparse.Namespace) -> TrainResult:
     from gazelle.training import Run, choose_progress
 
     config = Run.open(args.resume).config
-    planned = replace(config.recipe, steps=args.steps or config.recipe.steps)
-    sys.stderr.write(f"{config.task}, {planned.algo}: to {planned.rounded_steps:,} steps\n")
+    planned = config.recipe if args.steps is None else config.recipe.with_steps(args.steps)
+    sys.stderr.write(f"{config.task}, {planned.algo}: to {_most(planned)}\n")
     sys.stderr.write(_rounding(planned))
     from gazelle.training import resume  # imports torch, which takes seconds
 
@@ -198,6 +197,12 @@ def _require_task(args: argparse.Namespace) -> None:
 
     load_all(args.imports)
     find_task(args.task)
+
+
+def _most(recipe: Recipe) -> str:
+    """Return the steps of a training, and at which share of successes it does fewer."""
+    steps, share = f"{recipe.rounded_steps:,} steps", recipe.success_to_finish
+    return steps if share is None else f"at most {steps}, fewer once {share:.0%} succeed"
 
 
 def _rounding(recipe: Recipe) -> str:

@@ -58,6 +58,10 @@ class StopRequested(Exception):  # noqa: N818  # a signal to the loop, not a fau
     """A signal stopped the training, and everything is saved."""
 
 
+class SuccessReached(Exception):  # noqa: N818  # a signal to the loop, not a fault
+    """The policy succeeds as often as its recipe wants, and everything is saved."""
+
+
 class CurveTable(KVWriter):  # type: ignore[misc]  # untyped base
     """The curves as ``progress.csv``, with the same columns in every run.
 
@@ -165,6 +169,10 @@ class TrainingCallback(BaseCallback):  # type: ignore[misc]  # untyped base
         if self.stop.is_set() or due or self._is_slow() or not self.run.checkpoints():
             self._save()
         self._raise_if_asked()
+        wanted = self.run.config.recipe.success_to_finish
+        if wanted is not None and self.episodes.succeeds(wanted):
+            self._save()
+            raise SuccessReached
         self._update_began = time.monotonic()
 
     def _raise_if_asked(self) -> None:

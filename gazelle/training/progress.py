@@ -152,6 +152,7 @@ class Bar:
 
     def start(self, done: int, total: int) -> None:
         """Show the bar."""
+        self._bar.close()
         form = "{percentage:3.0f}%|{bar}| {n_fmt}/{total_fmt} [{remaining}, {rate_fmt}{postfix}]"
         self._bar = self._tqdm(
             initial=done,

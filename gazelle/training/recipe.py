@@ -138,6 +138,9 @@ class Recipe:
     """One of the names in `gazelle.training.ALGORITHMS`."""
     steps: int = 500_000
     """Control steps in total, all copies together."""
+    success_to_finish: float | None = None
+    """Share of successes in the latest 200 episodes at which a training goes over to its end, see
+    `steps_after_success`; None: it does all its ``steps``."""
     num_envs: int = 64
     """Copies of the world that run at once."""
     net_arch: tuple[int, ...] = (64, 64)
@@ -205,6 +208,10 @@ class Recipe:
         if self.activation not in ACTIVATIONS:
             hint = did_you_mean(str(self.activation), ACTIVATIONS)
             raise TaskError(f"there is no activation '{self.activation}'", hint=hint)
+        if self.success_to_finish is not None and not 0 < self.success_to_finish <= 1:
+            raise TaskError(
+                f"success_to_finish must be above 0 and up to 1, not {self.success_to_finish}"
+            )
         if not 0 <= self.gamma <= 1:
             raise TaskError(f"gamma must be between 0 and 1, not {self.gamma}")
         if self.cut_observations is not None and not self.cut_observations > 0:
@@ -229,6 +236,17 @@ class Recipe:
             if options.get(name) == self.training_options.get(name)
         }
         return {**options, **of_recipe}
+
+    def with_steps(self, steps: int) -> Recipe:
+        """Return the recipe with a number of control steps, all of which are done."""
+        return dataclasses.replace(self, steps=steps, success_to_finish=None)
+
+    def steps_after_success(self, done: int) -> int:
+        """Return the control steps of a training that had its success after a given number of them.
+
+        It does as many again, at least three tenths of ``steps`` in all, while the step size falls to 0.
+        """
+        return min(max(2 * done, 3 * self.steps // 10), self.steps)
 
     @property
     def rollout_steps(self) -> int | None:

@@ -61,13 +61,14 @@ _NAVIGATION = Recipe(
 # rewards in their own units, a third of the step size and minibatches of 1024, the box is pushed to its
 # goal in 48 % of the episodes. Distances and angles get logarithms, sines and cosines.
 _DEFAULT = Recipe(
-    steps=300_000,
+    steps=1_000_000,
+    success_to_finish=0.95,
     learning_rate=3e-3,
     features=True,
     settings=PPOSettings(n_steps=32, batch_size=256, n_epochs=6, scale_rewards=True),
 )
 
-PICTURES = dataclasses.replace(_DEFAULT, steps=100_000)
+PICTURES = _DEFAULT.with_steps(100_000)
 """For tasks that observe a picture: to render one takes longer than a step of most tasks."""
 
 # Small networks, a step size that stays, a target that follows quickly: goals are few steps away.

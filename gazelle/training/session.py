@@ -14,7 +14,7 @@ import torch
 
 from gazelle.argument_checks import checked
 from gazelle.errors import TaskError, TaskWarning
-from gazelle.training.callback import StopRequested, TrainingCallback
+from gazelle.training.callback import StopRequested, SuccessReached, TrainingCallback
 from gazelle.training.checkpoint import read_checkpoint, usable
 from gazelle.training.contracts import contract_of, save_contract
 from gazelle.training.demonstrations import with_demonstrator_found
@@ -92,7 +92,7 @@ def train(
         task: A task's id or name, or ``module:id`` for one that a module registers.
         algo: ``ppo``, ``dqn``, ``sac``, ``td3`` or ``ddpg``; by default what the recipe says.
         recipe: Recipe; by default the task's own, see `task_recipe`.
-        steps: Control steps in total, instead of the recipe's.
+        steps: Control steps in total, instead of the recipe's; all of them are done.
         num_envs: Copies that run at once, instead of the recipe's.
         seed: Seed of everything random.
         out: Folder in which the run's folder is made.
@@ -119,11 +119,8 @@ def train(
     modules = load_all([*imports, *([] if module is None else [module]), *homes])
     task = _fitting(find_task(task), algo if recipe is None else recipe.algo)
     recipe = recipe or task_recipe(task, algo, options=options)
-    recipe = dataclasses.replace(
-        recipe,
-        steps=recipe.steps if steps is None else steps,
-        num_envs=recipe.num_envs if num_envs is None else num_envs,
-    )
+    recipe = dataclasses.replace(recipe, num_envs=recipe.num_envs if num_envs is None else num_envs)
+    recipe = recipe if steps is None else recipe.with_steps(steps)
     recipe, shown = with_demonstrator_found(recipe)
     if not 0 <= seed < 2**32:
         raise TaskError(f"seed must be between 0 and 4294967295, not {seed}")
@@ -200,7 +197,7 @@ def resume(
                 f"the run has {done:,} steps already, more than {steps:,}",
                 hint="--steps is the total, not how many more",
             )
-        found = found.changed(recipe=dataclasses.replace(found.config.recipe, steps=steps))
+        found = found.changed(recipe=found.config.recipe.with_steps(steps))
     if not found.config.sharded and (workers is not None or ray is not None):
         raise TaskError(
             "the run was started without workers", hint="leave out --workers and --ray to go on"
@@ -272,7 +269,7 @@ class _Session:
         new = steps - before
         period = self.env.control_period
         return TrainResult(
-            run=run,
+            run=callback.run,
             steps=steps,
             new_steps=new,
             wall_seconds=seconds,
@@ -293,6 +290,9 @@ class _Session:
             )
         except StopRequested:
             return True
+        except SuccessReached:
+            self._go_over_to_the_end(callback)
+            return self._learn(callback, fresh=False)
         except Interrupted:
             if not callback.stop.timed_out:
                 raise
@@ -304,6 +304,16 @@ class _Session:
         callback.finish()
         self.progress.update(self.learner.num_timesteps, self.episodes.summary())
         return False
+
+    def _go_over_to_the_end(self, callback: TrainingCallback) -> None:
+        """Shorten the training, see `Recipe.success_to_finish`."""
+        done, recipe = self.learner.num_timesteps, callback.run.config.recipe
+        self.total = callback.total = recipe.steps_after_success(done)
+        callback.run = callback.run.changed(recipe=recipe.with_steps(self.total))
+        self.progress.say(
+            f"{recipe.success_to_finish:.0%} succeed after {done:,} steps: ends at {self.total:,}"
+        )
+        self.progress.start(done, self.total)
 
     def _check_weights(self, cause: ValueError | None) -> None:
         """Raise an error if weights are no longer finite."""

@@ -205,6 +205,10 @@ class EpisodeLog:
             means[name] = ended / attempts if attempts else math.nan
         return {name: mean for name, mean in means.items() if not math.isnan(mean)}
 
+    def succeeds(self, share: float) -> bool:
+        """Return whether at least a given share of a whole window were successes."""
+        return len(self._rows) == self.window and self.summary().get("success_rate", 0.0) >= share
+
     def get_state(self) -> dict[str, Any]:
         """Return the account, for a checkpoint."""
         return {"rows": self._rows, "total": self.total}
