@@ -202,25 +202,19 @@ class Recipe:
             raise TaskError(f"there is no algorithm '{self.algo}'", hint=hint)
         check_numbers(self)
         check_numbers(self.settings)
-        for name in ("learning_rate", "reward_scale"):
-            if not getattr(self, name) > 0:
-                raise TaskError(f"{name} must be above 0, not {getattr(self, name)}")
+        for name in ("learning_rate", "reward_scale", "cut_observations", "success_to_finish"):
+            value = getattr(self, name)
+            if value is not None and not value > 0:
+                raise TaskError(f"{name} must be above 0, not {value}")
         if self.activation not in ACTIVATIONS:
             hint = did_you_mean(str(self.activation), ACTIVATIONS)
             raise TaskError(f"there is no activation '{self.activation}'", hint=hint)
-        if self.success_to_finish is not None and not 0 < self.success_to_finish <= 1:
-            raise TaskError(
-                f"success_to_finish must be above 0 and up to 1, not {self.success_to_finish}"
-            )
-        if not 0 <= self.gamma <= 1:
-            raise TaskError(f"gamma must be between 0 and 1, not {self.gamma}")
-        if self.cut_observations is not None and not self.cut_observations > 0:
-            raise TaskError(f"cut_observations must be above 0, not {self.cut_observations}")
         if not 0 <= self.learning_rate_hold < 1:
             raise TaskError(f"learning_rate_hold must be below 1, not {self.learning_rate_hold}")
-        for name in ("hindsight", "hindsight_redraw"):
-            if not 0 <= getattr(self, name) <= 1:
-                raise TaskError(f"{name} must be between 0 and 1, not {getattr(self, name)}")
+        for name in ("gamma", "hindsight", "hindsight_redraw", "success_to_finish"):
+            value = getattr(self, name)
+            if value is not None and not 0 <= value <= 1:
+                raise TaskError(f"{name} must be between 0 and 1, not {value}")
         check_supported(self.algo, self)
         _check_settings(self.algo, self.settings)
 

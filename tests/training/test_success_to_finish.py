@@ -33,7 +33,7 @@ class Told(NoProgress):
 
 @pytest.fixture
 def short(tiny):
-    """A recipe that is content with what chance reaches within 200 episodes."""
+    """Return a recipe that is content with what chance reaches within 200 episodes."""
     settings = dataclasses.replace(tiny.settings, overlap=False)
     return dataclasses.replace(tiny, steps=40_000, success_to_finish=0.02, settings=settings)
 
