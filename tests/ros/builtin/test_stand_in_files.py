@@ -8,10 +8,12 @@ import pytest
 import yaml
 
 import gazelle_ros.builtin
+from gazelle.control import registry as registry_of_controllers
 from gazelle_ros.builtin import registry
 from gazelle_ros.builtin.joysticks.relay import JoystickRelay
 from gazelle_ros.builtin.joysticks.teleop_twist import TeleopTwistJoy
 from gazelle_ros.builtin.twist_mux import TwistMux
+from gazelle_ros.builtin.velocity_smoother import SmootherSettings
 from gazelle_ros.launch import load_launch
 from gazelle_ros.launch.loader import declared_arguments
 
@@ -37,6 +39,18 @@ def test_markers_have_settings_for_one_to_three_axes(kind):
     plan = load_launch(file, {"config": kind})
     axes = {name.rpartition("/")[2] for name in plan.parameters if "/linear_scale/" in name}
     assert axes == set({"linear": "", "planar": "xy", "aerial": "xyz"}[kind])
+
+
+def test_the_smoother_knows_its_settings():
+    values = yaml.safe_load((SHARE / "yocs_velocity_smoother/param/standalone.yaml").read_text())
+    assert SmootherSettings(**values).frequency == 20.0
+
+
+def test_the_settings_of_a_joint_state_controller_name_one():
+    values = yaml.safe_load(
+        (SHARE / "joint_state_controller/joint_state_controller.yaml").read_text()
+    )
+    assert values["joint_state_controller"]["type"] in registry_of_controllers.types()
 
 
 @pytest.mark.parametrize("file", JOYSTICKS, ids=lambda each: each.name.split(".")[0])
