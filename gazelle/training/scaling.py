@@ -74,7 +74,7 @@ class ObservationScale:
     @property
     def normalised(self) -> npt.NDArray[np.bool_]:
         """Mask of the entries that are normalised by observed moments, shape (entries,)."""
-        unbounded: npt.NDArray[np.bool_] = self.moments[_UNBOUNDED].numpy() != 0.0
+        unbounded: npt.NDArray[np.bool_] = self.moments.numpy()[_UNBOUNDED] != 0.0
         return unbounded
 
     @property
@@ -85,11 +85,11 @@ class ObservationScale:
     @property
     def decided(self) -> bool:
         """True once it is decided which entries are normalised."""
-        return bool(self.tally[_DECIDED])
+        return bool(self.tally.numpy()[_DECIDED])  # several times as fast as indexing a tensor
 
     def observe(self, observations: Floats32) -> None:
         """Update the statistics by observations, shape (N, ...)."""
-        if not self._scale or (self.decided and not self.normalised.any()):
+        if not self._scale or (self.decided and not np.count_nonzero(self.normalised)):
             return
         rows: Floats = observations.reshape(len(observations), -1).astype(np.float64)
         moments, tally = self.moments.numpy(), self.tally.numpy()
