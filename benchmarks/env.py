@@ -55,6 +55,9 @@ def main() -> None:
     parser.add_argument("--seconds", type=float, default=0.25, help="a window (default 0.25)")
     parser.add_argument("--windows", type=int, default=5, help="of which the best (default 5)")
     parser.add_argument("--engine", action="append", help="mujoco or planar (default both)")
+    parser.add_argument(
+        "--starts", default="published", help="of our task's episodes, such as training"
+    )
     args = parser.parse_args()
     goals = Goals()
     print(f"{ENVIRONMENT}, random actions, {os.cpu_count()} processors, best of {args.windows}")
@@ -73,9 +76,8 @@ def main() -> None:
 
 def compare(rays: int, worlds: int, engine: str, args: argparse.Namespace, goals: Goals) -> None:
     """Print our task's row, and the user's where it sees as many rays; note what is wanted."""
-    ours = measure(
-        f"Gazelle (engine {engine})", rays, worlds, gazelle_stepper(rays, worlds, engine), args
-    )
+    stepper = gazelle_stepper(rays, worlds, engine, args.starts)
+    ours = measure(f"Gazelle (engine {engine})", rays, worlds, stepper, args)
     wanted = WANTED.get((rays, worlds)) if engine == "planar" else None
     if wanted is not None:
         goals.least(f"planar, {rays} rays, worlds: {worlds:,}", ours, wanted)
@@ -122,11 +124,11 @@ def window(step: Callable[[], None], worlds: int, seconds: float) -> tuple[float
     return count / (time.perf_counter() - start), spent / count
 
 
-def gazelle_stepper(rays: int, worlds: int, engine: str) -> Callable[[], None]:
+def gazelle_stepper(rays: int, worlds: int, engine: str, starts: str) -> Callable[[], None]:
     """Return one step of Gazelle's environment: single for one world, vectorised for more."""
     generator = np.random.default_rng(0)
     if worlds == 1:
-        single = gymnasium.make(ENVIRONMENT, lidar_samples=rays, engine=engine)
+        single = gymnasium.make(ENVIRONMENT, lidar_samples=rays, engine=engine, starts=starts)
         single.reset(seed=0)
 
         def step() -> None:
@@ -141,6 +143,7 @@ def gazelle_stepper(rays: int, worlds: int, engine: str) -> Callable[[], None]:
         vectorization_mode="vector_entry_point",
         lidar_samples=rays,
         engine=engine,
+        starts=starts,
     )
     vector.reset(seed=0)
     return lambda: vector.step(generator.integers(5, size=worlds)) and None

@@ -298,6 +298,7 @@ class Fleet:
         self._velocity[here], self._stalled[here] = other._velocity[there], other._stalled[there]
         self._relink(here)
 
+    @checked(EngineError, after=True)
     def reset(self, worlds: Worlds | None = None) -> None:
         """Reset worlds to their initial state: poses, rest, no commands.
 
