@@ -122,3 +122,16 @@ def drive(w: Bodies, b: int, ahead: float, aside: float, turning: float) -> None
     w.command[b, 1] = w.velocity[b, 1] = aside
     w.command[b, 2] = w.velocity[b, 2] = turning
     w.stalled[b] = 0
+
+
+def rest_joints(worlds: Indices, angles: Floats, rates: Floats, targets: Floats) -> None:
+    """Reset joints of some worlds, shape (n,), and their motors; tables have a row for each world.
+
+    Where there is no motor, targets are not numbers, and that in all worlds.
+    """
+    for i in range(worlds.shape[0]):
+        w = worlds[i]
+        for k in range(angles.shape[1]):
+            angles[w, k] = rates[w, k] = 0.0
+            if targets[0, k] == targets[0, k]:
+                targets[w, k] = 0.0

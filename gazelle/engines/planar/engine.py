@@ -18,6 +18,7 @@ from gazelle.engines.laws import with_profile
 from gazelle.engines.limits import check_model, check_world, integer, physics_step
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar import unsupported
+from gazelle.engines.planar.body_writes import rest_joints
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.kinematics import FROZEN
 from gazelle.engines.planar.layout import FleetInput, PlanarLayout
@@ -170,13 +171,10 @@ class PlanarEngine:
 
     def reset(self, worlds: Worlds | None = None) -> None:
         """Reset worlds to their initial state: poses, rest, no commands."""
-        self._run.fleet.reset(worlds)
-        if not self._run.layout.axes:
-            return
-        rows = rows_of(worlds)
-        self._run.angles[rows], self._run.rates[rows] = 0.0, 0.0
-        # Where there is no motor there is no number, and that in all worlds.
-        self._run.targets[rows] = np.where(np.isnan(self._run.targets[0]), math.nan, 0.0)
+        chosen = np.arange(self.nworld) if worlds is None else worlds
+        which = world_indices(chosen, self.nworld, EngineError)
+        self._run.fleet.reset(which)
+        rest_joints(which, self._run.angles, self._run.rates, self._run.targets)
 
     @checked(EngineError)
     def command(self, commands: ArrayLike) -> None:

@@ -23,6 +23,7 @@ class RobotViews:
         distance: To the goal, rounded to 0.01 m, shape (n,).
         heading: Of the goal, rounded to 0.01 rad, shape (n,).
         position: Of the robots in the world frame [m], shape (n, 2).
+        goal: In the world frame [m], shape (n, 2).
     """
 
     state: Floats32
@@ -30,6 +31,7 @@ class RobotViews:
     distance: Floats
     heading: Floats
     position: Floats
+    goal: Floats
 
 
 def sight(
@@ -56,7 +58,7 @@ def sight(
     found = np.empty((6, count))
     whole, farthest = np.ascontiguousarray(ranges), rules.range_max
     see(whole, range_min, farthest, pose, goal, state, found)
-    return RobotViews(state, found, found[2], found[3], pose[:, :2])
+    return RobotViews(state, found, found[2], found[3], pose[:, :2], goal)
 
 
 def observation_space(rules: Rules, samples: int, *, distance_max: float) -> Box:

@@ -197,7 +197,7 @@ class TurtleBot3Task(BatchedTask):
         if np.count_nonzero(arrived):
             self._goals_reached += arrived
             if self.respawn:
-                self._next_goals(np.flatnonzero(arrived))
+                self._next_goals(np.flatnonzero(arrived), seen)
         terminated = crashed if self.respawn else crashed | arrived
         info = self._info(seen, slice(None), arrived=arrived, crashed=crashed > arrived)
         return TaskOutcome(seen.state, reward, terminated, info)
@@ -229,10 +229,12 @@ class TurtleBot3Task(BatchedTask):
             goal=self.goals.places(self._goal[rows]),
         )
 
-    def _next_goals(self, worlds: Worlds) -> None:
-        self._goal[worlds] = self.goals.after(self._goal[worlds], self._draw(worlds))
-        position, goal = self.scene.robot.planar_pose(worlds), self._goal[worlds]
-        self._set_start(worlds, round2(distance_to(position, self.goals.points[goal])))
+    def _next_goals(self, worlds: Worlds, seen: RobotViews) -> None:
+        """Set the next goals in these worlds, and show them; the view is of all worlds."""
+        chosen = self.goals.after(self._goal[worlds], self._draw(worlds))
+        goal = self.goals.places(chosen)
+        self._goal[worlds], seen.goal[worlds] = chosen, goal
+        self._set_start(worlds, round2(distance_to(seen.position.take(worlds, axis=0), goal)))
 
     def _set_start(self, worlds: Worlds, distance: NDArray[np.float64]) -> None:
         self._start_distance[worlds] = np.maximum(distance, SHORTEST)
@@ -252,7 +254,7 @@ class TurtleBot3Task(BatchedTask):
             "is_collision": crashed,
             "distance": seen.distance,
             "heading": seen.heading,
-            "goal": self.goals.places(self._goal[rows]),
+            "goal": seen.goal,
             "position": seen.position,
             "goals_reached": self._goals_reached[rows].copy(),
         }

@@ -37,7 +37,7 @@ def _judged(rates, nearest=1.0, distance=1.0, heading=0.3):
     n = len(rates)
     found = np.array([np.broadcast_to(e, n) for e in (nearest, nearest, distance, heading)])
     nothing = np.zeros((n, 0))
-    seen = RobotViews(nothing, found, found[2], found[3], nothing)
+    seen = RobotViews(nothing, found, found[2], found[3], nothing, nothing)
     return judge(STAGES[1], seen, np.array(rates), found[2].copy())
 
 
