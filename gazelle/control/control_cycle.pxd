@@ -11,7 +11,6 @@ cdef class ControlCycle(JointSystem):
     cdef readonly object updated_ns, written_ns
     cdef long long[::1] updated, written
     cdef long long period, step
-    cdef readonly bint taken
     cdef Py_ssize_t nworld
     @cython.locals(w=Py_ssize_t, last_update="long long", last_write="long long")
     cpdef begin(self, long long updated, long long written)
@@ -21,5 +20,3 @@ cdef class ControlCycle(JointSystem):
     cdef void advance(self, Py_ssize_t world, double* measured, double* rates, long long time) noexcept nogil
     @cython.locals(index=Py_ssize_t, place="void*")
     cdef void control(self, Py_ssize_t world, long long time, double period) noexcept nogil
-    @cython.locals(index=Py_ssize_t, place="void*")
-    cdef void exchange_taken(self, Py_ssize_t world, double* measured, double* rates, double period) noexcept nogil

@@ -25,7 +25,6 @@ class ControlCycle(JointSystem):
     Attributes:
         updated_ns: Time of the last update of controllers; -1 for never, shape (nworld,).
         written_ns: Time of the last write of commands, likewise.
-        taken: Whether controllers read and write all joints themselves.
     """
 
     def __init__(self, nworld: int, joints: int) -> None:
@@ -35,7 +34,6 @@ class ControlCycle(JointSystem):
         self.updated, self.written = self.updated_ns, self.written_ns
         self.table = np.zeros(0, np.int64)
         self.laws: list[ControlLaw] = []
-        self.taken = False
 
     def run(self, hardware: JointLaw, laws: Sequence[ControlLaw], period: int, step: int) -> None:
         """Set the tasks of an update.
@@ -49,8 +47,6 @@ class ControlCycle(JointSystem):
         self.hardware, self.laws = hardware, list(laws)
         self.table = np.array([id(each) for each in laws], np.int64)
         self.period, self.step = period, step
-        joints = sorted(joint for law in laws for joint in law.take_over(hardware))
-        self.taken = joints == [*range(self.count)]
 
     def begin(self, updated: int, written: int) -> None:
         """Set the times of the last controller update and last write, in all worlds [ns].
@@ -74,10 +70,6 @@ class ControlCycle(JointSystem):
         passed = self.period if before < 0 else time - before
         if before < 0 or passed >= self.period:
             self.updated[world] = time
-            if self.taken:
-                self.written[world] = time
-                self.exchange_taken(world, measured, rates, passed / 1e9)
-                return
             self.hardware.read(world, measured, rates)
             self.control(world, time, passed / 1e9)
         since = self.step if written < 0 else time - written
@@ -92,12 +84,3 @@ class ControlCycle(JointSystem):
                 cython.cast(ControlLaw, place).control(world, time, period)
             else:
                 self.laws[index].control(world, time, period)
-
-    def exchange_taken(self, world: int, measured: Any, rates: Any, period: float) -> None:
-        """Update controllers that took over all joints."""
-        for index in range(self.table.shape[0]):
-            if cython.compiled:
-                place = cython.cast(cython.p_void, self.table[index])
-                cython.cast(ControlLaw, place).exchange(world, measured, rates, period)
-            else:
-                self.laws[index].exchange(world, measured, rates, period)

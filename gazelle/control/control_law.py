@@ -4,9 +4,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
-
 import cython
 
 
@@ -30,20 +27,6 @@ class ControlLaw:
         Args:
             world: Index of the world.
             now: Simulated time [ns].
-            period: Since the last update [s].
-        """
-
-    def take_over(self, hardware: Any) -> Sequence[int]:  # noqa: ARG002  this one never does
-        """Return the joints that ``exchange`` reads and writes, in place of a ``JointLaw``; none by default."""
-        return ()
-
-    def exchange(self, world: int, measured: Any, rates: Any, period: float) -> None:
-        """Read, update and write the joints that were taken over, each at once.
-
-        Args:
-            world: Index of the world.
-            measured: Positions of all joints of the hardware.
-            rates: Their velocities.
             period: Since the last update [s].
         """
 

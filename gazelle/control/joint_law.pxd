@@ -21,7 +21,6 @@ cdef class JointLaw:
     cdef unsigned char[:, ::1] driven
     cdef unsigned char[::1] stopped, endless
     cdef double[::1] turning
-    cdef object states, commands
     cdef bint placing, by_effort
     cdef Py_ssize_t count, first, width
     cdef double *measured_at, *measured_rate_at, *applied_at, *pushed_at
@@ -30,11 +29,7 @@ cdef class JointLaw:
     cdef Py_ssize_t[::1] columns
     @cython.locals(i=Py_ssize_t, count=Py_ssize_t, first=Py_ssize_t, at="double*")
     cdef void read(self, Py_ssize_t world, double* measured, double* rates) noexcept nogil
-    @cython.locals(k=Py_ssize_t)
-    cdef void read_joint(self, Py_ssize_t world, Py_ssize_t i, double measured, double rate) noexcept nogil
-    @cython.locals(kind="long long", most=double, out=double)
-    cdef void write_joint(self, Py_ssize_t world, Py_ssize_t i, double period) noexcept nogil
-    @cython.locals(i=Py_ssize_t)
+    @cython.locals(i=Py_ssize_t, kind="long long", most=double, out=double)
     cdef void write(self, Py_ssize_t world, double period) noexcept nogil
     @cython.locals(i=Py_ssize_t, first=Py_ssize_t, stopped=bint, command="double*", at="double*", rate="double*", desired="double*", applied="double*")
     cdef void write_efforts(self, Py_ssize_t world) noexcept nogil
@@ -53,5 +48,5 @@ cdef class JointLaw:
 @cython.locals(i=Py_ssize_t, turn=double, far=Py_ssize_t)
 cdef bint follow(Py_ssize_t count, double* restrict position, double* restrict measured, double* restrict turning) noexcept nogil
 
-@cython.locals(i=Py_ssize_t, held=double)
+@cython.locals(i=Py_ssize_t, low=double, high=double, held=double)
 cdef void write_within(Py_ssize_t count, bint stopped, double* restrict command, double* restrict position, double* restrict velocity, double* restrict desired, double* restrict applied, double* restrict pushed, double* restrict lower, double* restrict upper, double* restrict fastest, double* restrict strongest) noexcept nogil

@@ -11,8 +11,7 @@ from typing import Any
 import cython
 import numpy as np
 from cython.cimports.gazelle.control.angle_law import distance, shorter, shortest
-from cython.cimports.gazelle.control.joint_math import clamp, effort_within, finite
-from cython.cimports.gazelle.control.limit_law import LimitLaw
+from cython.cimports.gazelle.control.limit_law import LimitLaw, clamp
 from cython.cimports.gazelle.control.pid_law import PidLaw
 from cython.cimports.gazelle.native.joint_system import copy
 from cython.cimports.gazelle.native.rows import column, offset, start
@@ -91,7 +90,6 @@ class JointLaw:
         self.pushed_at = start(self.pushed)
         self.desired_at, self.command_at = start(self.desired), start(self.effort_command)
         self.width = self.effort_command.shape[1]
-        self.states, self.commands = ports["position"], ports["effort_command"]
 
     def arrange(self, kinds: Any, columns: Any, limits: LimitLaw, pid: PidLaw) -> None:
         """Command joints in other ways.
@@ -108,16 +106,6 @@ class JointLaw:
         self.placing = BY_PLACE in kinds
         self.by_effort = self.first >= 0 and all(each == BY_EFFORT for each in kinds)
 
-    def takes_efforts(self, states: Floats, commands: Floats) -> bool:
-        """Return whether all joints are commanded by efforts within hard limits, in these arrays.
-
-        Args:
-            states: Positions.
-            commands: Efforts.
-        """
-        own = states is self.states and commands is self.commands
-        return bool(own and self.by_effort and self.limits.hard)
-
     def read(self, world: int, measured: Floats, rates: Floats) -> None:
         """Measure; joints that turn are followed round and round, and never jump.
 
@@ -130,7 +118,10 @@ class JointLaw:
         at = offset(self.position_at, first)
         if not follow(count, at, measured, self.turning_at):
             for i in range(count):
-                self.read_joint(world, i, measured[i], rates[i])
+                if self.turning[i] != 0.0:
+                    at[i] += shortest(at[i], measured[i])
+                else:
+                    at[i] = measured[i]
         copy(count, offset(self.applied_at, first), offset(self.effort_at, first))
         copy(count, rates, offset(self.velocity_at, first))
         if self.placing:
@@ -138,35 +129,22 @@ class JointLaw:
                 if self.kinds[i] == BY_PLACE:  # what a step adds to it the next one takes away
                     self.velocity[world, i] = self.placed_speed[world, i]
 
-    def read_joint(self, world: int, i: int, measured: float, rate: float) -> None:
-        """Measure a joint that is not put anywhere."""
-        k = world * self.count + i
-        if self.turning[i] != 0.0:
-            self.position_at[k] += shortest(self.position_at[k], measured)
-        else:
-            self.position_at[k] = measured
-        self.velocity_at[k], self.effort_at[k] = rate, self.applied_at[k]
-
     def write(self, world: int, period: float) -> None:
         """Apply commands within limits."""
         if self.by_effort:
             self.write_efforts(world)
             return
         for i in range(self.kinds.shape[0]):
-            self.write_joint(world, i, period)
-
-    def write_joint(self, world: int, i: int, period: float) -> None:
-        """Apply the command of a joint."""
-        kind, out = self.kinds[i], self.hold(world, i, period)
-        self.desired[world, i] = out
-        if kind == BY_EFFORT:
-            self.push(world, i, out)
-        elif kind == BY_MOTOR:
-            self.drive(world, i, out)
-        elif kind != BY_PLACE:
-            out = self.pid.push(world, i, self.error(world, i, out), period, False, 0.0)
-            most = self.limits.effort[i]
-            self.push(world, i, clamp(out, -most, most))
+            kind, out = self.kinds[i], self.hold(world, i, period)
+            self.desired[world, i] = out
+            if kind == BY_EFFORT:
+                self.push(world, i, out)
+            elif kind == BY_MOTOR:
+                self.drive(world, i, out)
+            elif kind != BY_PLACE:
+                out = self.pid.push(world, i, self.error(world, i, out), period, False, 0.0)
+                most = self.limits.effort[i]
+                self.push(world, i, clamp(out, -most, most))
 
     def write_efforts(self, world: int) -> None:
         """Apply the commands of joints that all have effort commands."""
@@ -219,7 +197,7 @@ class JointLaw:
 
     def push(self, world: int, i: int, effort: float) -> None:
         """Apply an effort, added to what acts already."""
-        safe = finite(effort)
+        safe = effort if isfinite(effort) else 0.0  # what is not a number would end the world
         if safe != self.applied[world, i]:
             self.applied[world, i], self.pushed[world, i] = safe, 1.0
 
@@ -265,14 +243,16 @@ def write_within(
     count: int, stopped: bool, command: Floats, position: Floats, velocity: Floats, desired: Floats,  # noqa: FBT001
     applied: Floats, pushed: Floats, lower: Floats, upper: Floats, fastest: Floats, strongest: Floats,
 ) -> None:  # fmt: skip
-    """Apply efforts within hard limits, several joints at a time."""
+    """Apply efforts within hard limits, several joints at a time; see ``LimitLaw.hold_effort``."""
     for i in range(count):
-        held = effort_within(
-            command[i], position[i], velocity[i], lower[i], upper[i], fastest[i], strongest[i]
-        )
+        low = 0.0 if velocity[i] < -fastest[i] else -strongest[i]
+        low = 0.0 if position[i] < lower[i] else low
+        high = 0.0 if velocity[i] > fastest[i] else strongest[i]
+        high = 0.0 if position[i] > upper[i] else high
+        held = min(max(command[i], low), high)
         command[i] = held
         held = 0.0 if stopped else held
         desired[i] = held
-        held = finite(held)
+        held = held if isfinite(held) else 0.0
         pushed[i] = 1.0 if held != applied[i] else pushed[i]
         applied[i] = held

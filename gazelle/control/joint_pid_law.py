@@ -5,28 +5,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import cython
 import numpy as np
 from cython.cimports.gazelle.control.angle_law import shorter, shortest, within
 from cython.cimports.gazelle.control.control_law import ControlLaw
-from cython.cimports.gazelle.control.joint_law import JointLaw
-from cython.cimports.gazelle.control.joint_math import clamp, effort_within, finite, pid_output
-from cython.cimports.gazelle.control.pid_law import (
-    D_ERROR,
-    I_ERROR,
-    LAST,
-    OUTPUT,
-    P_ERROR,
-    ROWS,
-    PidLaw,
-)
-from cython.cimports.gazelle.native.rows import column, offset, places_column, start
-from cython.cimports.libc.math import fabs
+from cython.cimports.gazelle.control.pid_law import PidLaw
+from cython.cimports.gazelle.native.rows import column, offset, start
 
 from gazelle.array_types import Bools, Floats
 from gazelle.control.interfaces import JointHandles
+from gazelle.native.rows import first_of_run
+
+_TURN = cython.declare(cython.double, 6.283185307179586)
 
 
 @cython.cclass
@@ -44,19 +35,16 @@ class JointPidLaw(ControlLaw):
     def __init__(self, joints: JointHandles, pid: PidLaw, targets: Floats, error: Floats) -> None:
         ControlLaw.__init__(self, len(targets))
         self.pid, self.targets, self.error = pid, targets, error
-        self.measures, self.position = joints.states.position, joints.states.position
-        self.velocity, self.joints = joints.states.velocity, joints.columns
-        self.commands, self.columns = joints.commands[joints.fields[0]]
-        self.command = self.commands
-        self.count = len(joints.columns)
-        bounds = np.full((2, self.count), [[-np.inf], [np.inf]])
-        self.hold_positions(list(bounds), np.zeros(self.count, bool))
-        self.by_velocity = True  # velocities have no limits, and do not turn
+        self.position, self.velocity = joints.states.position, joints.states.velocity
+        self.joints = joints.columns
+        self.command, self.columns = joints.commands[joints.fields[0]]
+        self.first_joint = first_of_run(joints.columns)
+        self.first_column = first_of_run(joints.commands[joints.fields[0]][1])
+        self.read_row, self.push_row = np.zeros((2, *targets.shape))
+        self.by_velocity, self.count = True, len(joints.columns)
         self.width, self.command_width = self.position.shape[1], self.command.shape[1]
-        self.position_at, self.velocity_at = start(self.position), start(self.velocity)
-        self.targets_at, self.error_at = start(self.targets), start(self.error)
-        self.command_at = start(self.command)
-        self.joints_at, self.columns_at = places_column(self.joints), places_column(self.columns)
+        self.measured_at, self.targets_at = start(self.velocity), start(self.targets)
+        self.error_at, self.command_at = start(self.error), start(self.command)
 
     def hold_positions(self, limits: Sequence[Floats], turning: Bools) -> None:
         """Control positions instead, within limits.
@@ -65,125 +53,69 @@ class JointPidLaw(ControlLaw):
             limits: Lower and upper ones [m or rad], shape (joints,) each.
             turning: Mask of joints that turn, shape (joints,).
         """
-        self.by_velocity = False
+        self.by_velocity, self.measured_at = False, start(self.position)
         self.lower, self.upper, self.turning = np.array([*limits, turning], np.float64)
         self.turning_at = column(self.turning)
         self.lower_at, self.upper_at = column(self.lower), column(self.upper)
 
     def control(self, world: int, now: int, period: float) -> None:  # noqa: ARG002  as of others
-        """Command efforts towards the targets."""
-        for i in range(self.count):
-            self.control_joint(world, i, period)
+        """Compute and apply efforts towards the targets.
 
-    def control_joint(self, world: int, i: int, period: float) -> None:
-        """Command a joint; positions turn the way that limits allow."""
-        k, j = world * self.count + i, world * self.width + self.joints_at[i]
-        at = self.velocity_at[j] if self.by_velocity else self.position_at[j]
-        target = clamp(self.targets_at[k], self.lower_at[i], self.upper_at[i])
-        self.targets_at[k], error = target, target - at
-        if self.turning_at[i] != 0.0:
-            error = within(at, shortest(at, target), self.lower_at[i], self.upper_at[i])
-        self.error_at[k] = error
-        self.command_at[world * self.command_width + self.columns_at[i]] = self.pid.push(
-            world, i, error, period, False, 0.0
-        )
-
-    def take_over(self, hardware: JointLaw) -> Sequence[int]:
-        """Return the joints if their efforts only have hard limits."""
-        if not hardware.takes_efforts(self.measures, self.commands):
-            return ()
-        joints, columns = np.asarray(self.joints), np.asarray(self.columns)
-        breaks = np.flatnonzero((np.diff(joints) != 1) | (np.diff(columns) != 1)) + 1
-        begin = np.array([0, *breaks], np.intp)[: self.count]
-        self.runs = np.stack((begin, np.diff([*begin, self.count])), axis=1).astype(np.intp)
-        self.hardware = hardware
-        return [int(joint) for joint in joints]
-
-    def exchange(self, world: int, measured: Any, rates: Any, period: float) -> None:
-        """Read the joints, and apply efforts towards the targets."""
-        for r in range(self.runs.shape[0]):
-            self.exchange_run(world, self.runs[r, 0], self.runs[r, 1], measured, rates, period)
-
-    def exchange_run(
-        self, world: int, first: int, count: int, measured: Any, rates: Any, period: float
-    ) -> None:
-        """Exchange with adjacent joints: several at a time, or else one by one."""
-        j, k = self.joints_at[first], world * self.count + first
-        s = world * self.width + j
-        measured, rates = offset(measured, j), offset(rates, j)
-        if period <= 0.0 or not are_near(
-            count, offset(self.position_at, s), measured, offset(self.targets_at, k),
-            rates if self.by_velocity else measured, offset(self.lower_at, first),
-            offset(self.upper_at, first),
-        ):  # fmt: skip
-            for each in range(count):
-                self.hardware.read_joint(world, j + each, measured[each], rates[each])
-                self.control_joint(world, first + each, period)
-                self.hardware.write_joint(world, j + each, period)
+        Positions turn the way that limits allow.
+        """
+        count, first = self.count, world * self.count
+        at, targets = self.measured(world), offset(self.targets_at, first)
+        error, near = offset(self.error_at, first), False
+        if self.by_velocity:
+            velocity_errors(count, at, targets, error)
+        else:
+            lower, upper = self.lower_at, self.upper_at
+            near = position_errors(count, at, targets, error, lower, upper, self.turning_at)
+        if self.first_column >= 0:
+            out = offset(self.command_at, world * self.command_width + self.first_column)
+            self.pid.push_row(world, error, period, near, False, error, out)
             return
-        c = world * self.command_width + self.columns_at[first]
-        own = offset(self.pid.memory_at, ROWS * world * self.count + first)
-        hold(
-            count, self.hardware.stopped[world], self.by_velocity, period, measured, rates,
-            offset(self.hardware.turning_at, j),
-            offset(self.position_at, s), offset(self.velocity_at, s),
-            offset(self.hardware.effort_at, s), offset(self.hardware.applied_at, s),
-            offset(self.hardware.pushed_at, s), offset(self.command_at, c),
-            offset(self.targets_at, k), offset(self.error_at, k), offset(own, LAST * self.count),
-            offset(own, P_ERROR * self.count), offset(own, I_ERROR * self.count),
-            offset(own, D_ERROR * self.count), offset(own, OUTPUT * self.count),
-            offset(self.pid.p_at, first), offset(self.pid.i_at, first),
-            offset(self.pid.d_at, first), offset(self.pid.sum_least_at, first),
-            offset(self.pid.sum_most_at, first), offset(self.pid.term_least_at, first),
-            offset(self.pid.term_most_at, first), offset(self.lower_at, first),
-            offset(self.upper_at, first), offset(self.turning_at, first),
-            offset(self.hardware.limits.lower_at, j), offset(self.hardware.limits.upper_at, j),
-            offset(self.hardware.limits.velocity_at, j), offset(self.hardware.limits.effort_at, j),
-        )  # fmt: skip
+        out = offset(start(self.push_row), first)
+        self.pid.push_row(world, error, period, near, False, error, out)
+        for i in range(count):
+            self.command[world, self.columns[i]] = out[i]
+
+    def measured(self, world: int) -> Floats:
+        """Return the measured values, in the order of the targets."""
+        values = offset(self.measured_at, world * self.width)
+        if self.first_joint >= 0:
+            return offset(values, self.first_joint)
+        at = offset(start(self.read_row), world * self.count)
+        for i in range(self.count):
+            at[i] = values[self.joints[i]]
+        return at
 
 
-def are_near(
-    count: int, position: Floats, measured: Floats, targets: Floats, values: Floats, lower: Floats,
-    upper: Floats,
+def velocity_errors(count: int, at: Floats, targets: Floats, error: Floats) -> None:
+    """Compute the errors of velocities."""
+    for i in range(count):
+        error[i] = targets[i] - at[i]
+
+
+def position_errors(
+    count: int, at: Floats, targets: Floats, error: Floats, lower: Floats, upper: Floats,
+    turning: Floats,
 ) -> bool:  # fmt: skip
-    """Return whether no joint turned by a radian or is five from its target.
+    """Compute position errors, the way that limits allow; return whether no joint is far off.
 
-    Then no difference is a whole turn, and all are finite.
+    Then all errors are finite.
     """
     far = 0
     for i in range(count):
-        moved = fabs(measured[i] - position[i])
-        way = fabs(clamp(targets[i], lower[i], upper[i]) - values[i])
-        far += 0 if moved < 1.0 else 1
-        far += 0 if way < 5.0 else 1
-    return far == 0
-
-
-def hold(
-    count: int, stopped: bool, by_velocity: bool, dt: float,  # noqa: FBT001  native code
-    measured: Floats, rates: Floats, follows: Floats, position: Floats, velocity: Floats, effort: Floats,
-    applied: Floats, pushed: Floats, command: Floats, targets: Floats, errors: Floats,
-    last: Floats, p_error: Floats, i_error: Floats, d_error: Floats, output: Floats,
-    p: Floats, i_gain: Floats, d: Floats, sum_least: Floats, sum_most: Floats,
-    term_least: Floats, term_most: Floats, lower: Floats, upper: Floats, turning: Floats,
-    least: Floats, most: Floats, fastest: Floats, strongest: Floats,
-) -> None:  # fmt: skip
-    """Read, control and write several joints at a time, as ``exchange_run`` does one by one."""
-    for i in range(count):
-        rate, at = rates[i], position[i] + shorter(measured[i] - position[i])
-        at = at if follows[i] != 0.0 else measured[i]
-        position[i], velocity[i], effort[i] = at, rate, applied[i]
-        targets[i] = clamp(targets[i], lower[i], upper[i])
-        error = targets[i] - (rate if by_velocity else at)
+        targets[i] = min(max(targets[i], lower[i]), upper[i])
+        difference = targets[i] - at[i]
+        far += 0 if -_TURN < difference < _TURN else 1
         if turning[i] != 0.0:
-            error = within(at, shorter(error), lower[i], upper[i])
-        change = (error - last[i]) / dt
-        whole = clamp(i_error[i] + dt * error, sum_least[i], sum_most[i])
-        out = pid_output(error, whole, change, p[i], i_gain[i], d[i], term_least[i], term_most[i])
-        errors[i] = last[i] = p_error[i] = error
-        i_error[i], d_error[i], output[i] = whole, change, out
-        out = effort_within(out, at, rate, least[i], most[i], fastest[i], strongest[i])
-        command[i] = out
-        out = finite(0.0 if stopped else out)
-        pushed[i] = 1.0 if out != applied[i] else pushed[i]
-        applied[i] = out
+            difference = within(at[i], shorter(difference), lower[i], upper[i])
+        error[i] = difference
+    if far == 0:
+        return True
+    for i in range(count):  # more than a whole turn, or not finite
+        if turning[i] != 0.0:
+            error[i] = within(at[i], shortest(at[i], targets[i]), lower[i], upper[i])
+    return False

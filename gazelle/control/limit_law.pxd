@@ -20,3 +20,5 @@ cdef class LimitLaw:
     cpdef hold_positions(self, command, position, previous, double dt)
     @cython.locals(w=Py_ssize_t, i=Py_ssize_t, a="const double[:, :]", b="const double[:, :]", c="const double[:, :]", period=double, out="double[:, ::1]")
     cpdef hold_velocities(self, command, position, velocity, previous, double dt)
+
+cdef double clamp(double value, double low, double high) noexcept nogil

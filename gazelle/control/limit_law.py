@@ -9,11 +9,15 @@ from typing import Any
 
 import cython
 import numpy as np
-from cython.cimports.gazelle.control.joint_math import clamp, effort_within
 from cython.cimports.gazelle.native.rows import column
 from cython.cimports.libc.math import INFINITY, isfinite
 
 from gazelle.array_types import Floats
+
+
+def clamp(value: float, low: float, high: float) -> float:
+    """Return a value within an interval; of an empty one the upper end."""
+    return min(max(value, low), high)
 
 
 @cython.cclass
@@ -59,16 +63,13 @@ class LimitLaw:
             most = -self.k_velocity[i] * (velocity - self.soft_bound(i, position, True))
             low = clamp(least, -self.effort[i], self.effort[i])
             high = clamp(most, -self.effort[i], self.effort[i])
-            return clamp(command, low, high)
-        return effort_within(
-            command,
-            position,
-            velocity,
-            self.lower[i],
-            self.upper[i],
-            self.velocity[i],
-            self.effort[i],
-        )
+        else:
+            low, high = -self.effort[i], self.effort[i]
+            if position < self.lower[i] or velocity < -self.velocity[i]:
+                low = 0.0
+            if position > self.upper[i] or velocity > self.velocity[i]:
+                high = 0.0
+        return clamp(command, low, high)
 
     def hold_position(self, i: int, command: float, before: float, dt: float) -> float:
         """Return the limited position command, given the one before."""

@@ -5,8 +5,7 @@
 from __future__ import annotations
 
 import cython
-from cython.cimports.gazelle.control.joint_math import clamp, pid_output
-from cython.cimports.gazelle.native.rows import block_start, column
+from cython.cimports.gazelle.native.rows import block_start, column, offset, start
 from cython.cimports.libc.math import isfinite
 
 from gazelle.array_types import Floats
@@ -68,24 +67,110 @@ class PidLaw:
         else:
             rate = (error - self.memory[world, LAST, loop]) / dt
             self.memory[world, LAST, loop] = error
-        whole = clamp(
-            self.memory[world, I_ERROR, loop] + dt * error,
-            self.sum_least[loop],
-            self.sum_most[loop],
-        )
-        out = pid_output(
-            error, whole, rate, self.p[loop], self.i[loop], self.d[loop],
-            self.term_least[loop], self.term_most[loop],
-        )  # fmt: skip
+        whole = self.memory[world, I_ERROR, loop] + dt * error
+        whole = min(max(whole, self.sum_least[loop]), self.sum_most[loop])
+        term = min(max(self.i[loop] * whole, self.term_least[loop]), self.term_most[loop])
+        out = self.p[loop] * error + term + self.d[loop] * rate
         self.memory[world, P_ERROR, loop], self.memory[world, I_ERROR, loop] = error, whole
         self.memory[world, D_ERROR, loop], self.memory[world, OUTPUT, loop] = rate, out
         return out
 
+    def push_row(
+        self,
+        world: int,
+        errors: Floats,
+        dt: float,
+        near: bool,  # noqa: FBT001  native code
+        rated: bool,  # noqa: FBT001
+        rates: Floats,
+        out: Floats,
+    ) -> None:
+        """Compute ``push`` of all loops of a world.
+
+        Args:
+            world: Index of the world.
+            errors: Of each loop.
+            dt: Since the last time [s].
+            near: Whether all errors are known to be finite.
+            rated: Whether rates of errors are given.
+            rates: Those.
+            out: Output.
+        """
+        count = self.count
+        if dt <= 0.0 or not (near or are_finite(count, errors)):
+            for k in range(count):
+                out[k] = self.push(world, k, errors[k], dt, rated, rates[k] if rated else 0.0)
+            return
+        own = offset(self.memory_at, ROWS * count * world)
+        known = offset(own, D_ERROR * count)
+        if rated:
+            for k in range(count):
+                known[k] = rates[k]
+        else:
+            differentiate(count, dt, errors, offset(own, LAST * count), known)
+        push_loops(
+            count,
+            dt,
+            errors,
+            known,
+            offset(own, P_ERROR * count),
+            offset(own, I_ERROR * count),
+            offset(own, OUTPUT * count),
+            out,
+            self.p_at,
+            self.i_at,
+            self.d_at,
+            self.sum_least_at,
+            self.sum_most_at,
+            self.term_least_at,
+            self.term_most_at,
+        )
+
     def compute(self, error: Floats, dt: float, rate: Floats | None, into: Floats) -> None:
         """Compute ``push`` of all loops in all worlds; all shapes are (nworld, loops)."""
+        if not into.size:
+            return
         rated = rate is not None
         errors, rates, out, period = error, error if rate is None else rate, into, dt
         with cython.nogil:
             for w in range(errors.shape[0]):
-                for k in range(errors.shape[1]):
-                    out[w, k] = self.push(w, k, errors[w, k], period, rated, rates[w, k])
+                first = w * self.count
+                self.push_row(
+                    w,
+                    offset(start(errors), first),
+                    period,
+                    False,
+                    rated,
+                    offset(start(rates), first),
+                    offset(start(out), first),
+                )
+
+
+def are_finite(count: int, values: Floats) -> bool:
+    """Return whether all numbers are finite."""
+    odd = 0
+    for k in range(count):
+        odd += 0 if isfinite(values[k]) else 1
+    return odd == 0
+
+
+def differentiate(count: int, dt: float, errors: Floats, last: Floats, rates: Floats) -> None:
+    """Compute rates of errors since the last time."""
+    for k in range(count):
+        rates[k] = (errors[k] - last[k]) / dt
+        last[k] = errors[k]
+
+
+def push_loops(
+    count: int, dt: float, errors: Floats, rates: Floats, p_error: Floats, i_error: Floats,
+    output: Floats, out: Floats, p: Floats, i: Floats, d: Floats, sum_least: Floats,
+    sum_most: Floats, term_least: Floats, term_most: Floats,
+) -> None:  # fmt: skip
+    """Update several loops at a time as ``PidLaw.push`` does, for finite errors."""
+    for k in range(count):
+        whole = i_error[k] + dt * errors[k]
+        whole = min(max(whole, sum_least[k]), sum_most[k])
+        term = min(max(i[k] * whole, term_least[k]), term_most[k])
+        output[k] = p[k] * errors[k] + term + d[k] * rates[k]
+        out[k] = output[k]
+        p_error[k], i_error[k] = errors[k], whole

@@ -34,7 +34,7 @@ def offset(numbers: Any, first: int) -> Any:
     """Return numbers from one of them on."""
     if isinstance(numbers, np.ndarray):
         return numbers[first:]
-    address = ctypes.addressof(numbers.contents) + 8 * int(first)
+    address = ctypes.addressof(numbers.contents) + 8 * first
     return ctypes.cast(address, ctypes.POINTER(ctypes.c_double))
 
 

@@ -8,6 +8,7 @@ from gazelle.array_types import Floats
 from gazelle.engines.mujoco.effort_limits import EffortLimits
 from gazelle.engines.mujoco.state import StateViews
 from gazelle.native.loop import SystemLoop
+from gazelle.native.rows import first_of_run
 
 
 class Hooks:
@@ -15,7 +16,8 @@ class Hooks:
 
     They are: how many systems there are, where their table is, a step [ns], where the times of
     worlds are; how many velocities of joints are limited, which ones, how, and where efforts are kept
-    that do not act now, a row a world; where rates of systems are, when they are due, and when the steps end that are made at once; bytes
+    that do not act now, a row a world; the first of those velocities, if they are side by side; where
+    rates of systems are, when they are due, and when the steps end that are made at once; bytes
     between the states of two worlds; where motors' velocities are in the first, and how many; where
     positions and quaternions of mocap bodies are, and how many.
 
@@ -28,7 +30,7 @@ class Hooks:
     """
 
     def __init__(self, nworld: int) -> None:
-        self._numbers = np.zeros(17, np.int64)
+        self._numbers = np.zeros(18, np.int64)
         self._times = np.zeros(nworld, np.int64)
         self._numbers[3] = self._times.ctypes.data
         self.address = int(self._numbers.ctypes.data)
@@ -45,11 +47,12 @@ class Hooks:
         self.kept = np.zeros((len(self._times), len(self._dofs)))
         self._numbers[4] = len(self._dofs)
         self._numbers[5:8] = [each.ctypes.data for each in (self._dofs, self._speeds, self.kept)]
+        self._numbers[8] = first_of_run(self._dofs)
 
     def show(self, state: StateViews, targets: Floats) -> None:
         """Share the velocities of motors and the mocap bodies of a state with systems."""
         position, quaternion = state.mocap_pos, state.mocap_quat
-        self._numbers[11:] = (
+        self._numbers[12:] = (
             state.qpos.strides[0],
             targets.ctypes.data,
             targets.shape[1],
@@ -64,7 +67,7 @@ class Hooks:
         if self._loop is not loop:
             self._loop = loop
             self._count, numbers[1], *others = loop.shared()
-            numbers[8:11] = others
+            numbers[9:12] = others
         self._times.fill(now_ns)
         numbers[0], numbers[2] = self._count, loop.step
 

@@ -56,10 +56,12 @@ def take_commands(
     time: cython.longlong = times[world]
     times[world] = time + hook[2]
     update_systems(data, hook, world, time)
+    if hook[8] >= 0 and not are_fast(hook[4], hook[8], applied, velocity, speeds):
+        return
     for index in range(hook[4]):
-        rate = velocity[dofs[index]]
-        if abs(rate) > speeds[index] and applied[dofs[index]] * rate > 0.0:
-            kept[index], applied[dofs[index]] = applied[dofs[index]], 0.0
+        effort = applied[dofs[index]]
+        if effort * velocity[dofs[index]] > 0.0 and abs(velocity[dofs[index]]) > speeds[index]:
+            kept[index], applied[dofs[index]] = effort, 0.0
 
 
 @cython.cfunc
@@ -80,9 +82,9 @@ def update_systems(
         time: At the beginning of the step [ns].
     """
     table = longs(cython.cast(cython.size_t, hook[1]))
-    rates = floats(cython.cast(cython.size_t, hook[8]))
-    due = longs(cython.cast(cython.size_t, hook[9]))
-    end: cython.longlong = longs(cython.cast(cython.size_t, hook[10]))[0]
+    rates = floats(cython.cast(cython.size_t, hook[9]))
+    due = longs(cython.cast(cython.size_t, hook[10]))
+    end: cython.longlong = longs(cython.cast(cython.size_t, hook[11]))[0]
     index: cython.Py_ssize_t
     for index in range(hook[0]):
         acts: cython.longlong = table[WIDTH * index + ACTS]
@@ -148,20 +150,40 @@ def update_one(
     time: cython.longlong,
 ) -> cython.void:
     """Update a world's rows of a system that knows arrays of the state; MuJoCo steps on a copy of it."""
-    row: cython.Py_ssize_t = hook[11] * world
-    targets = floats(cython.cast(cython.size_t, hook[12] + row))
+    row: cython.Py_ssize_t = hook[12] * world
+    targets = floats(cython.cast(cython.size_t, hook[13] + row))
     user = floats(word(data + AT.userdata))
     if acts != AHEAD:
-        copy(hook[13], user, targets)  # systems of joints may have written
+        copy(hook[14], user, targets)  # systems of joints may have written
     if cython.compiled:
         place = cython.cast(cython.p_void, address)
         cython.cast(System, place).update(world * rows, (world + 1) * rows, time)
     else:
         KNOWN[int(address)].update(world * rows, (world + 1) * rows, time)
     if acts != AHEAD:
-        copy(hook[13], targets, user)
+        copy(hook[14], targets, user)
         return
-    positions = floats(cython.cast(cython.size_t, hook[14] + row))
-    quaternions = floats(cython.cast(cython.size_t, hook[15] + row))
-    copy(3 * hook[16], positions, floats(word(data + AT.mocap_pos)))
-    copy(4 * hook[16], quaternions, floats(word(data + AT.mocap_quat)))
+    positions = floats(cython.cast(cython.size_t, hook[15] + row))
+    quaternions = floats(cython.cast(cython.size_t, hook[16] + row))
+    copy(3 * hook[17], positions, floats(word(data + AT.mocap_pos)))
+    copy(4 * hook[17], quaternions, floats(word(data + AT.mocap_quat)))
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def are_fast(
+    count: cython.longlong,
+    first: cython.longlong,
+    applied: cython.p_double,
+    velocity: cython.p_double,
+    speeds: cython.p_double,
+) -> cython.bint:
+    """Return whether an effort accelerates a velocity that is too fast, several at a time."""
+    found: cython.Py_ssize_t = 0
+    index: cython.Py_ssize_t
+    for index in range(count):
+        rate: cython.double = velocity[first + index]
+        onward: cython.bint = applied[first + index] * rate > 0.0
+        found += 1 if onward and abs(rate) > speeds[index] else 0
+    return found > 0
