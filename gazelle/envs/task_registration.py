@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import gymnasium as gym
 from gymnasium.vector import AutoresetMode
 
+from gazelle.argument_checks import checked
 from gazelle.envs.batched_task import BatchedTask
 from gazelle.envs.goal_envs import TaskGoalEnv, TaskGoalVectorEnv
 from gazelle.envs.goal_task import GoalSimulationTask
@@ -16,6 +17,7 @@ from gazelle.envs.limits import MAX_ENVS
 from gazelle.envs.options import check_integer
 from gazelle.envs.single_env import TaskEnv
 from gazelle.envs.vector_env import TaskVectorEnv
+from gazelle.errors import TaskError
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +66,13 @@ class VectorEntry:
         )
 
 
-def register_task(task_id: str, task: Callable[..., BatchedTask], **kwargs: Any) -> None:
+@checked(TaskError)
+def register_task(
+    task_id: str,
+    task: Callable[..., BatchedTask],
+    *,
+    kwargs: Mapping[str, Any] | None = None,
+) -> None:
     """Register a task with Gymnasium, for ``gymnasium.make``, ``make_vec`` and ``gazelle train``.
 
     ::
@@ -78,14 +86,20 @@ def register_task(task_id: str, task: Callable[..., BatchedTask], **kwargs: Any)
     Args:
         task_id: As Gymnasium knows it, ``namespace/Name-v0``.
         task: Class of the task, or a function, called with the number of worlds and options.
-        kwargs: Other arguments of ``gymnasium.register``, such as ``kwargs``, fixed options.
+        kwargs: Options that the id fixes, as of ``gymnasium.register``.
 
     Raises:
-        gymnasium.error.Error: Gymnasium refuses the id.
+        TaskError: The task cannot be called, or Gymnasium refuses the id.
     """
+    if not callable(task):
+        raise TaskError(f"a task is a class or a function, not {task!r:.60}")
     if _is_earlier(task_id, task):
         del gym.registry[task_id]
-    gym.register(task_id, SingleEntry(task), vector_entry_point=VectorEntry(task), **kwargs)
+    single, many, fixed = SingleEntry(task), VectorEntry(task), dict(kwargs or {})
+    try:
+        gym.register(task_id, single, vector_entry_point=many, kwargs=fixed)
+    except gym.error.Error as error:
+        raise TaskError(f"'{task_id}' cannot be registered: {error}") from error
 
 
 def _is_earlier(task_id: str, task: Callable[..., BatchedTask]) -> bool:

@@ -126,6 +126,12 @@ def test_another_class_of_the_same_id_is_warned_about():
         register_task(ID, Slider)
 
 
+@pytest.mark.parametrize(("task_id", "task"), [("no id at all", Count), ("test/Count-v1", 3)])
+def test_what_cannot_be_registered_is_an_error(task_id, task):
+    with pytest.raises(TaskError):
+        register_task(task_id, task)
+
+
 def test_fixed_options_are_those_of_gymnasium():
     register_task("test/CountMore-v0", Count, kwargs={"first": 9.0})
     env = gym.make("test/CountMore-v0")
