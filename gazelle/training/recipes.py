@@ -182,7 +182,9 @@ RECIPES: dict[str, Recipe] = {
         num_envs=16,
         learning_rate=1e-3,
         gamma=0.99,
-        settings=PPOSettings(n_steps=64, batch_size=256, n_epochs=10, ent_coef=0.0),
+        settings=PPOSettings(
+            n_steps=64, batch_size=256, n_epochs=10, ent_coef=0.0, scale_rewards=True
+        ),
     ),
     **OPENAI_ROS,
     **FROBS_RL,

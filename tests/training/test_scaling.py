@@ -243,7 +243,7 @@ def test_a_users_cartpole_is_learnt_whatever_its_bounds(name, tmp_path):
         kwargs=CARTPOLES[name],
         max_episode_steps=500,
     )
-    recipe: Recipe = dataclasses.replace(recipe_for("CartPole"), steps=300_000)
+    recipe: Recipe = dataclasses.replace(recipe_for("CartPole"), steps=150_000)
     result = train(task, recipe=recipe, out=tmp_path)
     del gym.registry[task]
     assert result.summary["return"] > 400.0
