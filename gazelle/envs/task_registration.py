@@ -34,7 +34,7 @@ class SingleEntry:
         self, seed: int | None = None, render_mode: str | None = None, **options: Any
     ) -> TaskEnv:
         """Return the environment, with goals where the task has them."""
-        task = self.registered_task(1, **options)
+        task = _made(self.registered_task, 1, options)
         if isinstance(task, GoalSimulationTask):
             return TaskGoalEnv(task, seed=seed, render_mode=render_mode)
         return TaskEnv(task, seed=seed, render_mode=render_mode)
@@ -56,7 +56,7 @@ class VectorEntry:
     ) -> TaskVectorEnv:
         """Return the environments."""
         check_integer("num_envs", num_envs, 1, MAX_ENVS)
-        task = self.registered_task(num_envs, **options)
+        task = _made(self.registered_task, num_envs, options)
         if isinstance(task, GoalSimulationTask):
             return TaskGoalVectorEnv(
                 task, seed=seed, render_mode=render_mode, autoreset_mode=autoreset_mode
@@ -100,6 +100,23 @@ def register_task(
         gym.register(task_id, single, vector_entry_point=many, kwargs=fixed)
     except gym.error.Error as error:
         raise TaskError(f"'{task_id}' cannot be registered: {error}") from error
+
+
+def _made(
+    registered: Callable[..., BatchedTask], nworld: int, options: Mapping[str, Any]
+) -> BatchedTask:
+    """Return the task of a number of worlds.
+
+    Raises:
+        TaskError: What was registered makes something else.
+    """
+    made = registered(nworld, **options)
+    if isinstance(made, BatchedTask):
+        return made
+    raise TaskError(
+        f"what was registered makes a {type(made).__name__}, not a task",
+        hint="register_task takes a subclass of BatchedTask, gymnasium.register an environment",
+    )
 
 
 def _is_earlier(task_id: str, task: Callable[..., BatchedTask]) -> bool:

@@ -132,6 +132,12 @@ def test_what_cannot_be_registered_is_an_error(task_id, task):
         register_task(task_id, task)
 
 
+def test_an_environment_is_no_task():
+    register_task("test/CountEnv-v0", lambda nworld: gym.make("CartPole-v1"))
+    with pytest.raises(TaskError, match=r"makes a TimeLimit, not a task(?s:.*)gymnasium.register"):
+        gym.make("test/CountEnv-v0")
+
+
 def test_fixed_options_are_those_of_gymnasium():
     register_task("test/CountMore-v0", Count, kwargs={"first": 9.0})
     env = gym.make("test/CountMore-v0")
