@@ -108,7 +108,7 @@ def _made(
     """Return the task of a number of worlds.
 
     Raises:
-        TaskError: What was registered makes something else.
+        TaskError: The registered callable makes something else.
     """
     made = registered(nworld, **options)
     if isinstance(made, BatchedTask):
