@@ -125,9 +125,7 @@ def _begin(args: argparse.Namespace) -> TrainResult:
 
     return train(
         args.task,
-        recipe=recipe,
-        steps=args.steps,
-        num_envs=args.num_envs,
+        recipe=planned,
         seed=seed,
         out=args.out or Path("runs"),
         checkpoint_every=args.checkpoint_every,

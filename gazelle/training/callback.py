@@ -93,18 +93,16 @@ class TrainingCallback(BaseCallback):  # type: ignore[misc]  # untyped base
 
     Args:
         run: Run for curves and checkpoints.
-        total: Control steps of the whole training.
         episodes: The account of the latest episodes.
         progress: Shows how far the run is.
         stop: Returns whether the user wants to stop.
     """
 
     def __init__(
-        self, run: Run, total: int, episodes: EpisodeLog, progress: Progress, stop: StopRequest
+        self, run: Run, episodes: EpisodeLog, progress: Progress, stop: StopRequest
     ) -> None:
         super().__init__()
         self.run = run
-        self.total = total
         self.episodes = episodes
         self.progress = progress
         self.stop = stop
@@ -163,15 +161,15 @@ class TrainingCallback(BaseCallback):  # type: ignore[misc]  # untyped base
             self._save()  # a stop does not wait for an evaluation: the next run makes it again
             self._raise_if_asked()
             self._evaluate()
-        if steps - self.logged_at >= self.total / _CURVE_POINTS:
+        if steps - self.logged_at >= self.run.config.recipe.steps / _CURVE_POINTS:
             self._log()
         due = steps - self.saved_at >= self.run.config.checkpoint_every
-        if self.stop.is_set() or due or self._is_slow() or not self.run.checkpoints():
+        wanted = self.run.config.recipe.success_to_finish
+        reached = wanted is not None and self.episodes.succeeds(wanted)
+        if self.stop.is_set() or due or reached or self._is_slow() or not self.run.checkpoints():
             self._save()
         self._raise_if_asked()
-        wanted = self.run.config.recipe.success_to_finish
-        if wanted is not None and self.episodes.succeeds(wanted):
-            self._save()
+        if reached:
             raise SuccessReached
         self._update_began = time.monotonic()
 

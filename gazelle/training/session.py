@@ -228,7 +228,6 @@ class _Session:
     ) -> None:
         self.progress = progress
         self.episodes = EpisodeLog()
-        self.total = config.recipe.steps
         self.env = (
             join_workers(config, workers, ray, self.episodes.add)
             if config.sharded
@@ -248,7 +247,7 @@ class _Session:
     def go(self, run: Run, checkpoint: Path | None = None) -> TrainResult:
         """Train until the total; from the checkpoint if there is one."""
         with stopping(lambda: self.progress.say(_STOPPING)) as stop:
-            callback = TrainingCallback(run, self.total, self.episodes, self.progress, stop)
+            callback = TrainingCallback(run, self.episodes, self.progress, stop)
             if checkpoint is not None:
                 extra = read_checkpoint(checkpoint, self.learner)
                 with usable(checkpoint):
@@ -256,7 +255,7 @@ class _Session:
             before = self.learner.num_timesteps
             callback.attach(self.learner)
             self.callbacks = [callback, *make_callbacks(run.config.callbacks)]
-            self.progress.start(before, self.total)
+            self.progress.start(before, run.config.recipe.steps)
             start = time.perf_counter()
             try:
                 interrupted = self._learn(callback, fresh=checkpoint is None)
@@ -281,7 +280,7 @@ class _Session:
 
     def _learn(self, callback: TrainingCallback, *, fresh: bool) -> bool:
         """Run the learner; returns whether it was interrupted."""
-        left = self.total - self.learner.num_timesteps
+        left = callback.run.config.recipe.steps - self.learner.num_timesteps
         if not fresh and left <= 0:
             return False
         try:
@@ -308,12 +307,12 @@ class _Session:
     def _go_over_to_the_end(self, callback: TrainingCallback) -> None:
         """Shorten the training, see `Recipe.success_to_finish`."""
         done, recipe = self.learner.num_timesteps, callback.run.config.recipe
-        self.total = callback.total = recipe.steps_after_success(done)
-        callback.run = callback.run.changed(recipe=recipe.with_steps(self.total))
+        total = recipe.steps_after_success(done)
+        callback.run = callback.run.changed(recipe=recipe.with_steps(total))
         self.progress.say(
-            f"{recipe.success_to_finish:.0%} succeed after {done:,} steps: ends at {self.total:,}"
+            f"{recipe.success_to_finish:.0%} succeed after {done:,} steps: ends at {total:,}"
         )
-        self.progress.start(done, self.total)
+        self.progress.start(done, total)
 
     def _check_weights(self, cause: ValueError | None) -> None:
         """Raise an error if weights are no longer finite."""
