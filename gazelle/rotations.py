@@ -138,11 +138,16 @@ def _cross_one(a: Floats, b: Floats) -> Floats:
 
 def yaw_of(q: Floats) -> Floats:
     """Return heading about z [rad] in (-pi, pi] of unit quaternions, shape (..., 4)."""
-    rows = np.asarray(q, np.float64).reshape(-1, 4)
-    x_axis = np.empty((2, len(rows)))
-    find_headings(rows, x_axis[0], x_axis[1])
-    yaw: Floats = np.arctan2(x_axis[1], x_axis[0]).reshape(q.shape[:-1])
+    ahead, aside = _x_axis(np.asarray(q, np.float64).reshape(-1, 4))
+    yaw: Floats = np.arctan2(aside, ahead).reshape(q.shape[:-1])
     return yaw
+
+
+def _x_axis(q: Floats) -> Floats:
+    """Return where the x axis points, along x and along y, shape (2, n), after quaternions (n, 4)."""
+    found = np.empty((2, len(q)))
+    find_headings(q, found[0], found[1])
+    return found
 
 
 def roll_pitch_yaw(q: Floats) -> Floats:
@@ -157,8 +162,7 @@ def roll_pitch_yaw(q: Floats) -> Floats:
     x, y, z, w = (q[..., axis] for axis in range(4))
     roll = np.arctan2(2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y))
     pitch = np.arcsin(np.clip(2.0 * (w * y - z * x), -1.0, 1.0))
-    yaw = np.arctan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
-    return np.stack((roll, pitch, yaw), axis=-1)
+    return np.stack((roll, pitch, yaw_of(q)), axis=-1)
 
 
 def seen_on_ground(q: Floats, v: Floats) -> Floats:
@@ -172,8 +176,7 @@ def seen_on_ground(q: Floats, v: Floats) -> Floats:
     """
     if len(q) == 1:
         return _seen_by_one(q, v)
-    x, y, z, w = q.T
-    ahead, aside = 1.0 - 2.0 * (y * y + z * z), 2.0 * (w * z + x * y)
+    ahead, aside = _x_axis(q)
     length = np.sqrt(ahead * ahead + aside * aside)
     upright = length == 0.0
     ahead, length = np.where(upright, 1.0, ahead), np.where(upright, 1.0, length)

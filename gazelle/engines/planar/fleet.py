@@ -86,7 +86,7 @@ class Fleet:
         self._make_state()
         self.bodies: Any = self._tables(time_step, sweep=sweep)
         self._loop: SystemLoop | None = None
-        self._relink(slice(None))
+        self._relink()
 
     def _describe(self, bodies: Sequence[Body]) -> None:
         """Fill the tables of what the bodies are; equal parts are stored once."""
@@ -271,7 +271,7 @@ class Fleet:
             slice(None) if which is None else indices("bodies", which, len(self.rows), EngineError)
         )
         self.rows[rows] = _rows_of(np.column_stack((flat, np.asarray(heights, np.float64).ravel())))
-        self._relink(slice(None))
+        self._relink()
 
     def put_rows(self, rows: ArrayLike) -> None:
         """Set all bodies to the ``rows`` of such a fleet, to the bit.
@@ -283,7 +283,7 @@ class Fleet:
             EngineError: A number is not finite.
         """
         self.rows[:] = np.asarray(rows, np.float64).reshape(-1, c.BODY)
-        self._relink(slice(None))
+        self._relink()
 
     def copy_from(self, body: int, other: Fleet, its: int) -> None:
         """Copy the state of a body from another fleet with as many worlds.
@@ -296,7 +296,8 @@ class Fleet:
         here, there = slice(body, None, self.nbody), slice(its, None, other.nbody)
         self.rows[here], self._command[here] = other.rows[there], other._command[there]
         self._velocity[here], self._stalled[here] = other._velocity[there], other._stalled[there]
-        self._relink(here)
+        relink_some(self.bodies, self.which(body))
+        self.changes += 1
 
     @checked(EngineError, after=True)
     def reset(self, worlds: Worlds | None = None) -> None:
@@ -310,15 +311,10 @@ class Fleet:
         put_back(self.bodies, np.ascontiguousarray(which), self._initial)
         self.changes += 1
 
-    def _relink(self, rows: slice | Indices) -> None:
-        """Update the lists of the grid for some bodies that were placed."""
+    def _relink(self) -> None:
+        """Update the lists of the grid for all bodies, which were placed."""
         self.changes += 1
-        if isinstance(rows, slice):
-            if rows == slice(None):
-                relink(self.bodies, 0, len(self.rows))
-                return
-            rows = np.arange(len(self.rows))[rows]
-        relink_some(self.bodies, np.ascontiguousarray(rows))
+        relink(self.bodies, 0, len(self.rows))
 
     # -- time --------------------------------------------------------------------------
 

@@ -15,7 +15,7 @@ from cython.cimports.gazelle.engines.planar.bodies import Bodies
 from cython.cimports.gazelle.engines.planar.columns import CIRCLE, KIND, X0, X1, Y0, Y1, X, Y
 from cython.cimports.libc.math import floor
 
-from gazelle.array_types import Floats, Ints32, Worlds
+from gazelle.array_types import Floats, Indices, Ints32, Worlds
 
 INFINITE = float("inf")
 
@@ -130,7 +130,7 @@ def relink(w: Bodies, first: int, last: int) -> None:
         relink_one(w, b)
 
 
-def relink_some(w: Bodies, which: Floats) -> None:
+def relink_some(w: Bodies, which: Indices) -> None:
     """Update the lists for some bodies, shape (n,)."""
     for i in range(which.shape[0]):
         relink_one(w, which[i])

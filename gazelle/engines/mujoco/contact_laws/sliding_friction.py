@@ -96,7 +96,7 @@ def _on_a_cone(touch: cython.pointer[Touch]) -> cython.void:
     wanted = along * reference[1] + across * reference[2]
     lacking = reference[0] - _last(touch, 0)
     mu = sqrt(along * along + across * across)
-    left = _lasting(touch, gained, size) - wanted
+    left = _lasting(touch, gained, size, _is_alike(touch)) - wanted
     reference[0] -= share * _parting(touch, left, lacking, mu)
 
 
@@ -119,17 +119,19 @@ def _on_a_pyramid(touch: cython.pointer[Touch]) -> cython.void:
     share = _share(touch, slip, mu)
     if share == 0.0:
         return
+    alike = _is_alike(touch)
     left, lacking = 0.0, 0.0
     for edge in range(0, 4, 2):
         first, second = _last(touch, edge), _last(touch, edge + 1)
         sign = 0.5 if velocity[edge] > velocity[edge + 1] else -0.5
         wanted = sign * (reference[edge] - reference[edge + 1])
-        left = max(left, _lasting(touch, sign * (first - second), mu * slip) - wanted)
+        gained = _lasting(touch, sign * (first - second), mu * slip, alike)
+        left = max(left, gained - wanted)
         lacking = 0.5 * (reference[edge] + reference[edge + 1] - first - second)
     parting = share * _parting(touch, left, lacking, mu)
     for edge in range(2 * (touch.dim - 1)):
         reference[edge] -= parting
-    if slip < _STEPS_TO_STOP * mu * touch.weight * touch.step and _is_alike(touch):
+    if slip < _STEPS_TO_STOP * mu * touch.weight * touch.step and alike:
         _blunt_pyramid(touch)
 
 
@@ -217,7 +219,10 @@ def _is_alike(touch: cython.pointer[Touch]) -> cython.bint:
 @cython.nogil
 @cython.exceptval(check=False)
 def _lasting(
-    touch: cython.pointer[Touch], gained: cython.double, slip: cython.double
+    touch: cython.pointer[Touch],
+    gained: cython.double,
+    slip: cython.double,
+    alike: cython.bint,
 ) -> cython.double:
     """Return the acceleration along the slip to expect after that of the last step.
 
@@ -228,8 +233,9 @@ def _lasting(
         touch: The contact.
         gained: Acceleration along the slip in the last step, times mu.
         slip: Slip, times mu.
+        alike: Whether all contacts of both bodies have the same, isotropic friction.
     """
-    if gained <= 0.0 or _is_alike(touch):
+    if gained <= 0.0 or alike:
         return gained
     return gained * max(1.0 - gained * touch.step / slip, 0.0)
 
